@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import test, { after, before } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { openWindow, skip } from './browser.mjs';
+import { until } from './cell_page.mjs';
 
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 let folder;
@@ -23,7 +24,7 @@ async function makePage(name, engine) {
   const place = join(folder, `engine of ${name}`);
   await mkdir(place);
   await writeFile(join(place, 'engine.js'), engine);
-  await writeFile(join(place, 'engine.wasm'), 'no program');
+  await writeFile(join(place, 'engine.wasm'), Buffer.from('\0asm\x01\0\0\0', 'latin1')); // an empty program
   execFileSync(process.execPath, [here('../single.mjs'), place, join(folder, 'tables'), join(folder, `${name}.html`)]);
 }
 
@@ -64,6 +65,11 @@ test('A request is answered by the worker with status, headers and body', { skip
     assert.equal((await ask(page, '/api/none')).status, 404);
   }));
 
+test('The program finds the tables as they were before they were packed', { skip }, () =>
+  inPage(async (page) => {
+    assert.equal((await ask(page, '/api/table')).text, 'a table');
+  }));
+
 test('What nobody waits for any more ends by itself, if it is short, and the next is answered by the same worker', { skip }, () =>
   inPage(async (page) => {
     const found = await page.evaluate(async () => {
@@ -95,6 +101,22 @@ test('DELETE of an address stops what was posted there, however long that would 
     assert.deepEqual(JSON.parse(text).map(({ name }) => name), ['a.rtdc']);
   }));
 
+test('Moduli tell how far they have come, and are stopped without the loss of what was computed before', { skip }, () =>
+  inPage(async (page) => {
+    await openRecordings(page);
+    await give(page, 'a.rtdc');
+    await page.locator('.recording', { hasText: 'a.rtdc' }).waitFor();
+    const found = await page.evaluate(async () => {
+      const ask = async (method) => {
+        const answer = await window.rheocyte.answer('/api/items/0/moduli', { method, ...(method === 'POST' ? { body: '{}' } : {}) });
+        return [answer.status, (await answer.json()).state];
+      };
+      return [await ask('POST'), await ask('GET'), await ask('DELETE'), await ask('GET')];
+    });
+    assert.deepEqual(found, [[202, 'running'], [200, 'running'], [200, 'none'], [200, 'none']]);
+    assert.equal(await page.locator('.notice', { hasText: 'Stopped' }).count(), 0);
+  }));
+
 test('A breakdown is told in a sentence, and the program goes on with the same files', { skip }, () =>
   inPage(async (page) => {
     await openRecordings(page);
@@ -118,6 +140,21 @@ test('Of many files that are given at once the one that breaks the program down 
     const { text } = await ask(page, '/api/items');
     const states = JSON.parse(text).map(({ state }) => state);
     assert.deepEqual(states, [...Array(100).fill('ready'), 'failed', 'ready']);
+  }));
+
+test('A file whose reading never ends is left out after a minute', { skip }, () =>
+  inPage(async (page) => {
+    await page.clock.install();
+    await openRecordings(page);
+    await give(page, 'a.rtdc', 'hangs.rtdc', 'b.rtdc');
+    const sentence = 'Nothing could be read of hangs.rtdc for 60 s; the program was started again without that file.';
+    const isTold = async () => {
+      await page.clock.fastForward(61_000);
+      return (await page.locator('.notice', { hasText: sentence }).count()) > 0;
+    };
+    assert.ok(await until(isTold));
+    const { text } = await ask(page, '/api/items');
+    assert.deepEqual(JSON.parse(text).map(({ state }) => state), ['ready', 'failed', 'ready']);
   }));
 
 test('A file that cannot be opened is told, and the others are listed', { skip }, () =>

@@ -19,7 +19,16 @@ function rheocyteEngine(module) {
     module.takeHead(status, 'application/json', { 'X-Kind': 'stand-in' });
     module.takePiece(encode(text));
   };
+  let done = 0;
+  const state = () => answer(JSON.stringify({ state: done > 0 ? 'running' : 'none', done }));
+  const moduli = async (method) => {
+    while (method === 'POST' && (await module.isWanted())) done = 0.5;
+    done = 0;
+    state();
+  };
   const answers = {
+    '/api/items/0/moduli': (method) => (method === 'GET' ? state() : moduli(method)),
+    '/api/table': () => answer(new TextDecoder().decode(files.get('/tables/one.cbor'))),
     '/api/echo': (method, body) => answer(JSON.stringify({ method, body })),
     '/api/items': () => answer(JSON.stringify(listed)),
     '/api/breaks': () => {
@@ -46,6 +55,7 @@ function rheocyteEngine(module) {
   };
   const open = (path) => {
     const name = path.split('/').pop();
+    while (name === 'hangs.rtdc' && files.get(path).size);
     if (name === 'breaks.rtdc' && files.get(path).size) throw new Error('HDF5 broke');
     listed.push({ item: listed.length, kind: 'recording', name, state: files.get(path).size ? 'ready' : 'failed', condition: '', replicate: '' });
     return name === 'odd.rtdc' ? 'odd.rtdc: is odd.' : '';
@@ -53,9 +63,9 @@ function rheocyteEngine(module) {
   const request = (method, target, body) => {
     const path = target.split('?')[0];
     if (path === '/api/items/1/odd') throw new Error('HDF5 broke');
-    (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body, target);
+    return (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body, target);
   };
-  const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '' };
+  const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '', rheocyte_entry: () => 0 };
   const memory = { stringToNewUTF8: (text) => text, _free() {} };
-  return Promise.resolve({ FS, WORKERFS: { stream_ops: {} }, ...memory, ccall: (name, _returns, _types, values) => calls[name](...values) });
+  return Promise.resolve({ FS, WORKERFS: { stream_ops: {} }, ...memory, wasmTable: { get: () => request }, ccall: (name, _returns, _types, values) => calls[name](...values) });
 }

@@ -45,7 +45,7 @@ export async function startTarget(items = []) {
     if (child.signalCode === 'SIGKILL') throw new Error('The program did not end after SIGINT.');
   };
   try {
-    return { address: await ready(child), output, stop };
+    return { address: await ready(child), output, process: child.pid, stop };
   } catch (failure) {
     await stop();
     throw failure;

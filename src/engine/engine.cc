@@ -9,12 +9,14 @@
 #include <optional>
 #include <string>
 
+#include "serve/http.h"
 #include "serve/target.h"
 #include "view/view_routes.h"
 
 // What the worker (page/src/alone/worker.ts) adds to the module.
 EM_JS(void, engine_head, (int status, const char* type, const char* headers),
       { Module.takeHead(status, UTF8ToString(type), JSON.parse(UTF8ToString(headers))); })
+EM_JS(int, engine_is_wanted, (), { return Module.isWanted(); })  // a promise where the browser can wait for one
 EM_JS(void, engine_piece, (const char* from, int size), {
   const first = from >>> 0;  // beyond 2 GB it arrives negative
   Module.takePiece(HEAPU8.slice(first, first + size));
@@ -23,6 +25,12 @@ EM_JS(void, engine_piece, (const char* from, int size), {
 namespace rheocyte {
 
 namespace {
+
+/// The page, of which the worker knows whether it still waits.
+class Page : public Client {
+ public:
+  bool has_left() const override { return engine_is_wanted() == 0; }
+};
 
 std::optional<ViewRoutes>& routes() {
   static std::optional<ViewRoutes> all;
@@ -37,7 +45,7 @@ void give_head(const Answer& answer) {
 
 bool give_piece(std::string_view piece) {
   engine_piece(piece.data(), static_cast<int>(piece.size()));
-  return true;  // who no longer waits ends the worker
+  return true;
 }
 
 void answer(Request request) {
@@ -66,14 +74,20 @@ EMSCRIPTEN_KEEPALIVE void rheocyte_start(const char* tables, const char* exports
   rheocyte::routes().emplace(nothing, exports);
 }
 
-/// `target` is path and query.
+/// `target` is path and query. Also called while another call asks whether the page still waits: by what reads no
+/// recording and solves nothing.
 EMSCRIPTEN_KEEPALIVE void rheocyte_request(const char* method, const char* target, const char* body, int size) {
+  static const rheocyte::Page page;
   rheocyte::Target asked = rheocyte::read_target(target);
   rheocyte::answer({.method = method,
                     .path = std::move(asked.path),
                     .query = std::move(asked.query),
-                    .body = std::string(body, static_cast<std::size_t>(size))});
+                    .body = std::string(body, static_cast<std::size_t>(size)),
+                    .client = &page});
 }
+
+/// The same in the table of functions, where it can be called as a promise.
+EMSCRIPTEN_KEEPALIVE void* rheocyte_entry() { return reinterpret_cast<void*>(&rheocyte_request); }
 
 EMSCRIPTEN_KEEPALIVE int rheocyte_count() { return static_cast<int>(rheocyte::routes()->items().count()); }
 

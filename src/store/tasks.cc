@@ -34,6 +34,7 @@ void Tasks::work(int thread) {
     Task task = next();
     ++running_;
     lock.unlock();
+    look_between_tasks();
     const Clock::time_point start = Clock::now();
     std::exception_ptr failure;
     try {

@@ -55,6 +55,11 @@ Thread& Thread::operator=(Thread&& other) noexcept {
   return *this;
 }
 
+// Another thread looks after the work.
+BetweenTasks::BetweenTasks(std::function<void()>) {}
+BetweenTasks::~BetweenTasks() = default;
+void look_between_tasks() {}
+
 void Thread::join() {
   if (thread_) ::pthread_join(*thread_, nullptr);
   thread_.reset();

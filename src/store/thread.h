@@ -38,6 +38,18 @@ class Thread {
   std::optional<pthread_t> thread_;
 };
 
+/// In builds without threads what else is to be done meanwhile, such as to ask whether the work is still wanted: called
+/// between tasks (store/tasks.h) as long as this lives. Elsewhere never. One at a time.
+class BetweenTasks {
+ public:
+  explicit BetweenTasks(std::function<void()> look);
+  ~BetweenTasks();
+  BetweenTasks(const BetweenTasks&) = delete;
+  BetweenTasks& operator=(const BetweenTasks&) = delete;
+};
+/// For whoever does tasks.
+void look_between_tasks();
+
 /// Threads that do work(0), work(1), ...: as many as the system gives, at most `wanted`. SystemLimit if it gives none.
 std::vector<Thread> start_threads(int wanted, const std::function<void(int number)>& work);
 

@@ -7,6 +7,22 @@ namespace rheocyte {
 
 const bool has_threads = false;
 
+namespace {
+
+std::function<void()>& looks() {
+  static std::function<void()> now;
+  return now;
+}
+
+}  // namespace
+
+BetweenTasks::BetweenTasks(std::function<void()> look) { looks() = std::move(look); }
+BetweenTasks::~BetweenTasks() { looks() = nullptr; }
+
+void look_between_tasks() {
+  if (const auto& look = looks()) look();
+}
+
 Thread::Thread(Work work, std::size_t) { std::exchange(work, nullptr)(stop_.get_token()); }
 Thread::~Thread() = default;
 Thread::Thread(Thread&&) noexcept = default;

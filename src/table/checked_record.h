@@ -1,4 +1,4 @@
-// Records as bytes: an outer CBOR object with the checksum of an inner one, which holds numbers as raw doubles.
+// Records as bytes: an outer CBOR object with the checksum of an inner one, which holds arrays of numbers as raw bytes.
 #pragma once
 #include <Eigen/Core>
 #include <new>
@@ -11,9 +11,10 @@
 
 namespace rheocyte {
 
-/// What a record is, in which version of its layout, what a user calls it, and how it is made anew.
+/// What a record is, in which version of its layout, what a user calls it, how it is made anew, and which older version
+/// is read as well, if any.
 struct RecordKind {
-  std::string_view kind, format, noun, way_out;
+  std::string_view kind, format, noun, way_out, older_format = {};
 };
 
 /// Why bytes are no record; the end of a sentence.
@@ -26,7 +27,10 @@ void check_record(bool good, const char* what);
 
 /// Little-endian doubles.
 nlohmann::json blob_of(std::span<const double> values);
-/// Back; DamagedRecord if their number is another one.
+/// Little-endian numbers of single precision (6e-8), for what is a thousandth off. Each must be of a size that they
+/// have.
+nlohmann::json single_blob_of(std::span<const double> values);
+/// Back, from either of them; DamagedRecord if their number is another one.
 std::vector<double> numbers_of(const nlohmann::json& record, const char* key, std::size_t size);
 
 /// Equal records of one spec give equal bytes.

@@ -1,4 +1,4 @@
-// The file of a grid.
+// The file of a grid: in single precision, but for the places of its nodes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind grid_kind{"rheocyte grid", "1", "grid of a table",
-                               "`rheocyte table` with the table's spec writes it anew"};
+constexpr RecordKind grid_kind{"rheocyte grid", "2", "grid of a table",
+                               "`rheocyte table` with the table's spec writes it anew", "1"};
 constexpr int max_side = 10000;
 
 json record_of(const GridPatch& patch) {
@@ -27,21 +27,21 @@ json record_of(const GridPatch& patch) {
           {"rows", patch.rows},
           {"lower", blob_of(patch.lower)},
           {"upper", blob_of(patch.upper)},
-          {"log_stiffness", blob_of(patch.log_stiffness)},
-          {"error", blob_of(patch.error)},
-          {"beyond", blob_of(patch.beyond)}};
+          {"log_stiffness", single_blob_of(patch.log_stiffness)},
+          {"error", single_blob_of(patch.error)},
+          {"beyond", single_blob_of(patch.beyond)}};
 }
 
 json record_of(const ShapeNodes& shapes) {
   json modes = json::array();
-  for (const auto& mode : shapes.modes) modes.push_back(blob_of(mode));
+  for (const auto& mode : shapes.modes) modes.push_back(single_blob_of(mode));
   return {{"least_log_area", shapes.min_log_area},
           {"column_step", shapes.column_step},
           {"columns", shapes.columns},
           {"rows", shapes.rows},
           {"lower", blob_of(shapes.lower)},
           {"upper", blob_of(shapes.upper)},
-          {"inertia_ratio", blob_of(shapes.inertia_ratio)},
+          {"inertia_ratio", single_blob_of(shapes.inertia_ratio)},
           {"modes", std::move(modes)}};
 }
 

@@ -14,6 +14,7 @@
 #include "case/user_error.h"
 #include "serve/http.h"
 #include "store/file_version.h"
+#include "store/system_limit.h"
 #include "store/thread.h"
 #include "view/moduli_settings.h"
 #include "view/page_words.h"
@@ -84,11 +85,15 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Cl
   const fs::path combined = items_.combined();
   if (!combined.empty()) run->command_several = moduli_command(moduli_options(options, combined), found.place.path);
   take_out(item);
-  const std::scoped_lock lock(mutex_);
-  const fs::path stem = items_.host().folder() / to_path(fmt::format("item-{}-{}", item, ++started_));
   run->files = {found.place.path, to_path(options.table), combined};
-  run->companion = to_path(stem.string() + "_rheocyte.rtdc");
-  if (!combined.empty()) run->several = to_path(stem.string() + "_moduli.rtdc");
+  // Before it begins: without threads its state is asked for while it is made.
+  {
+    const std::scoped_lock lock(mutex_);
+    const fs::path stem = items_.host().folder() / to_path(fmt::format("item-{}-{}", item, ++started_));
+    run->companion = to_path(stem.string() + "_rheocyte.rtdc");
+    if (!combined.empty()) run->several = to_path(stem.string() + "_moduli.rtdc");
+    runs_[item] = run;
+  }
   const Json request{{"do", "moduli"},
                      {"file", path_text(found.place.path)},
                      {"settings", run->settings},
@@ -98,10 +103,14 @@ void ModuliRuns::begin(std::size_t item, const ExtractOptions& options, const Cl
                      {"keep", true}};
   // A client whose request was answered with a thread begun waits for nothing.
   const Client* const waits = has_threads ? nullptr : client;
-  run->thread =
-      Thread([this, &run = *run, request, waits](const std::stop_token& stop) { compute(run, request, stop, waits); },
-             small_stack);
-  runs_[item] = run;
+  try {
+    run->thread =
+        Thread([this, &run = *run, request, waits](const std::stop_token& stop) { compute(run, request, stop, waits); },
+               small_stack);
+  } catch (const SystemLimit&) {
+    take_out(item);
+    throw;
+  }
 }
 
 void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& stop, const Client* client) {

@@ -1,5 +1,6 @@
 // Moduli that are being computed, or have been, for recordings of the view. For several threads at once.
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -59,7 +60,7 @@ class ModuliRuns {
   std::counting_semaphore<> free_processors_;
   mutable std::mutex mutex_;
   std::map<std::size_t, std::shared_ptr<Run>> runs_;
-  std::size_t started_ = 0;
+  std::atomic<std::size_t> started_ = 0;
 };
 
 }  // namespace rheocyte

@@ -119,8 +119,12 @@ void SolverThreads::look_after_client(Task& task) {
 
 JobEnd SolverThreads::run_here(const SolverJob& job) {
   if (job.request.client_has_left()) return JobEnd::left;
-  job.work(*session_here_, std::atomic<bool>(false));
-  return JobEnd::done;
+  std::atomic<bool> stop{false};
+  const BetweenTasks looking([&] {
+    if (job.request.client_has_left()) stop = true;
+  });
+  job.work(*session_here_, stop);
+  return stop ? JobEnd::left : JobEnd::done;
 }
 
 JobEnd SolverThreads::run(const SolverJob& job) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <random>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 #include "invented_branch.h"
+#include "table/checked_record.h"
 #include "table/grid_from_branches.h"
 #include "table/table_interpolation.h"
 
@@ -191,8 +193,22 @@ TEST(StiffnessGrid, IsTheSameFromItsFile) {
   for (const auto& [area, d] : random_queries(spec, 100)) {
     const auto a = one.answer(area, d), b = other.answer(area, d);
     EXPECT_EQ(a.reason, b.reason);
-    EXPECT_TRUE(a.log_stiffness == b.log_stiffness || a.reason != OutOfTable::none);
+    EXPECT_TRUE(std::abs(a.log_stiffness - b.log_stiffness) < 1e-6 || a.reason != OutOfTable::none)
+        << "the file has single precision";
   }
+}
+
+TEST(StiffnessGrid, AFileOfFormerVersionsWithItsDoublesIsReadAsItIs) {
+  const auto spec = spec_of_fifty_radii({});
+  const auto content = make_stiffness_grid(spec, invented_branches(spec), "1.0", {8, 8, 4}).value();
+  OpenedRecord opened = opened_record({"rheocyte grid", "2", "", ""}, to_bytes(content));
+  nlohmann::json& patch = opened.record.at("patches").at(0);
+  patch["log_stiffness"] = blob_of(content.patches[0].log_stiffness);
+  const std::string old = sealed_record({"rheocyte grid", "1", "", ""}, opened.spec_hash, opened.record);
+  EXPECT_EQ(grid_from_bytes(old, "grid.cbor").patches[0].log_stiffness, content.patches[0].log_stiffness);
+  const std::string newer = sealed_record({"rheocyte grid", "3", "", ""}, opened.spec_hash, opened.record);
+  EXPECT_NE(test::refusal_of([&] { grid_from_bytes(newer, "grid.cbor"); }).find("in format \"3\" and not 2"),
+            std::string::npos);
 }
 
 TEST(StiffnessGrid, NumbersThatNoCellHasAreRefusedEvenUnderTheirChecksum) {

@@ -1,9 +1,13 @@
 // Without threads and processes what is asked is done when it is answered.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "measurement/recording_writer.h"
 #include "store/thread.h"
@@ -87,6 +91,64 @@ TEST_F(InPlace, ModuliForNobodyAreStopped) {
   const Json state = json("GET", "/api/items/0/moduli");
   EXPECT_EQ(state["state"], "failed");
   EXPECT_EQ(state["error"], "Nobody waits any more for what was asked.");
+}
+
+TEST_F(InPlace, AStateForNobodyIsStoppedBetweenTasksAndTheNextOneIsFound) {
+  /// Leaves while it is solved, not before.
+  struct Leaving final : Client {
+    bool has_left() const override { return ++asked > 1; }
+    mutable int asked = 0;
+  };
+  const std::string cell = R"({"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+    "cell": {"radius_um": 6, "bulk": {"law": "neo-hookean", "young_modulus_kPa": 4}}, "numerics": {"accuracy": 0.1}})";
+  const Leaving page;
+  const Answer stopped = ask("POST", "/api/state", cell, &page);
+  EXPECT_EQ(stopped.status, 503);
+  EXPECT_EQ(Json::parse(stopped.body)["reason"], "left");
+  EXPECT_EQ(ask("POST", "/api/state", cell).status, 200);
+}
+
+/// Asks how far the moduli of an item have come whenever it is asked whether it waits, and leaves after some answers.
+class Watching final : public Client {
+ public:
+  Watching(const Router& router, std::string path, std::size_t patience)
+      : router_(router), path_(std::move(path)), patience_(patience) {}
+  bool has_left() const override {
+    if (told_.size() >= patience_) return true;
+    const Json state = Json::parse(router_.answer({.method = "GET", .path = path_}).body);
+    if (state["state"] == "running") told_.push_back(state["done"]);
+    return false;
+  }
+  const std::vector<double>& told() const { return told_; }
+
+ private:
+  const Router& router_;
+  std::string path_;
+  std::size_t patience_;
+  mutable std::vector<double> told_;
+};
+
+TEST_F(InPlace, HowFarModuliHaveComeIsAnsweredWhileTheyAreComputed) {
+  open_cells(40);
+  const Watching page(routes_.router(), "/api/items/0/moduli", 1000000);
+  ask("POST", "/api/items/0/moduli", "{}", &page);
+  ASSERT_FALSE(page.told().empty());
+  EXPECT_TRUE(std::ranges::is_sorted(page.told()));
+  EXPECT_GT(page.told().back(), 0.5);
+  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "ready");
+}
+
+TEST_F(InPlace, ModuliThatAreStoppedHalfwayTakeNoOthersWithThem) {
+  open_cells(40);
+  test::write_virtual_cells(folder_ / "others.rtdc", 40);
+  routes_.open(folder_ / "others.rtdc");
+  ask("POST", "/api/items/0/moduli", "{}");
+  const Watching page(routes_.router(), "/api/items/1/moduli", 1);
+  ask("POST", "/api/items/1/moduli", "{}", &page);
+  EXPECT_EQ(json("GET", "/api/items/1/moduli")["state"], "failed");
+  EXPECT_EQ(json("DELETE", "/api/items/1/moduli")["state"], "none");
+  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "ready");
+  EXPECT_EQ(json("POST", "/api/items/1/moduli", "{}")["state"], "ready");
 }
 
 TEST_F(InPlace, FramesInTimeAreGivenWhileTheyAreComputed) {

@@ -1,7 +1,7 @@
 // What page and worker say to each other.
 export interface Start {
   kind: 'start';
-  /** gzip in base64, as the tables, which follow their names */
+  /** as single.mjs packs it, and the tables, which follow their names */
   wasm: string;
   tables: [string, string][];
 }
@@ -22,7 +22,13 @@ export interface Open {
   files: File[];
 }
 
-export type ToWorker = Start | Ask | Open;
+/** Nobody waits any more for what is computed. */
+export interface Leave {
+  kind: 'leave';
+  id: number;
+}
+
+export type ToWorker = Start | Ask | Open | Leave;
 
 export interface Saved {
   name: string;
@@ -34,6 +40,8 @@ export type FromWorker =
   | { kind: 'head'; id: number; status: number; headers: Record<string, string> }
   | { kind: 'piece'; id: number; piece: Uint8Array }
   | { kind: 'end'; id: number; saved?: Saved }
+  /** A sign of life; `state` is what GET of the same address would answer meanwhile: how far it has come. */
+  | { kind: 'works'; id: number; state?: string }
   /** The file of this place among those given together is read now. */
   | { kind: 'opens'; id: number; place: number }
   /** The number of the item that it has become, if it is one; why it cannot be opened, or nothing. */

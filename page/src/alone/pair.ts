@@ -15,7 +15,7 @@ export class PairOfPrograms implements Program {
 
   constructor(parts: Parts, listener: Listener) {
     this.recordings = new ProgramInPage(parts, listener);
-    this.cells = new ProgramInPage(parts, listener);
+    this.cells = new ProgramInPage({ ...parts, tables: [] }, listener); // what is solved needs none
   }
 
   answer(path: string, options: RequestInit): Promise<Response> {

@@ -1,5 +1,6 @@
 // The program as WebAssembly in a worker of this page, in the place of a server: one request after another.
 import { Refusal, type Program } from '../api';
+import { cannotRun } from './needed';
 import type { FromWorker, Open, Saved, Start, ToWorker } from './messages';
 
 interface Job {
@@ -11,16 +12,26 @@ interface Job {
   /** Of them the one that is being opened, and why others cannot be. */
   place?: number;
   sentences: string[];
+  /** How far what is computed has come, for who asks the same address. */
+  state?: string;
+  isLeft?: boolean;
   pieces?: ReadableStreamDefaultController<Uint8Array>;
   answered(answer: Response): void;
   opened(sentences: string[]): void;
   failed(reason: Error): void;
 }
 
-/** Work that nobody waits for any more may go on so long; then its worker is ended. */
-const patience_ms = 2000;
+/** Work that nobody waits for any more may go on so long; then its worker is ended: with nothing in it, or with files and
+ * what was computed from them. */
+const patience_ms = 2000, patience_with_files_ms = 10_000;
 const lost = 'Stopped; moduli that were computed before must be computed again.';
 
+/** So long may a file be read without a sign of life; a damaged one may keep HDF5 busy for ever. */
+const silence_ms = 60_000;
+const hasBroken = (name: string) => `Reading ${name} broke the program down; it was started again without that file.`;
+const isSilent = (name: string) =>
+  `Nothing could be read of ${name} for ${silence_ms / 1000} s; the program was started again without that file.`;
+const json = { 'Content-Type': 'application/json' };
 const isSession = ({ name }: File) => name.endsWith('.toml');
 const aborted = () => new DOMException('', 'AbortError');
 
@@ -51,6 +62,8 @@ export class ProgramInPage implements Program {
   private itemFiles = new Map<number, File>();
   /** What was changed of items, to be said again to the next worker. */
   private changes = new Map<string, string>();
+  /** The timer that ends reading without a sign of life. */
+  private silence = 0;
 
   constructor(
     private readonly parts: Parts,
@@ -64,6 +77,9 @@ export class ProgramInPage implements Program {
     const body = String(options.body ?? '');
     if (method === 'PATCH') this.changes.set(path, body);
     if (method === 'DELETE') this.leave((job) => job.target === path && job.method === 'POST');
+    const { running } = this;
+    if (method === 'GET' && running?.target === path && running.state !== undefined)
+      return Promise.resolve(new Response(running.state, { headers: json }));
     return new Promise((answered, failed) => {
       const job = this.add({ method, target: path, body, answered, failed, opened: () => undefined });
       options.signal?.addEventListener('abort', () => this.leave((each) => each === job));
@@ -99,14 +115,18 @@ export class ProgramInPage implements Program {
     return job;
   }
 
-  /** What waits is forgotten; what runs takes no message, so that it ends by itself soon, or with its worker. */
+  /** What waits is forgotten; what runs ends when it looks for messages, or else with its worker. */
   private leave(isMeant: (job: Job) => boolean): void {
     const left = this.queue.filter(isMeant);
     this.queue = this.queue.filter((job) => !left.includes(job));
     const running = this.running;
     if (running && isMeant(running)) {
       left.push(running);
-      window.setTimeout(() => this.running === running && this.begin(this.given.length > 0 ? lost : null), patience_ms);
+      Object.assign(running, { isLeft: true, state: undefined });
+      this.tell({ kind: 'leave', id: running.id });
+      const hasFiles = this.given.length > 0;
+      const end = () => this.running === running && this.begin(hasFiles ? lost : null);
+      window.setTimeout(end, hasFiles ? patience_with_files_ms : patience_ms);
     }
     for (const job of left) this.fail(job, aborted());
   }
@@ -140,6 +160,7 @@ export class ProgramInPage implements Program {
     const job = this.queue.shift();
     if (!job) return;
     this.running = job;
+    this.listen();
     const { id, method, target, body, files } = job;
     this.tell(files ? ({ kind: 'open', id, files } satisfies Open) : { kind: 'ask', id, method, target, body });
   }
@@ -154,9 +175,17 @@ export class ProgramInPage implements Program {
     if (!job || job.id !== message.id) return;
     if (message.kind === 'head') this.takeHead(job, message.status, message.headers);
     else if (message.kind === 'piece') this.takePiece(job, message.piece);
+    else if (message.kind === 'works') this.takeState(job, message.state);
     else if (message.kind === 'opens') job.place = message.place;
     else if (message.kind === 'opened') this.takeOpened(job, message.place, message.item, message.sentence);
     else this.end(job, message.saved);
+    this.listen();
+  }
+
+  /** To the worker, as long as it reads a file. */
+  private listen(): void {
+    window.clearTimeout(this.silence);
+    if (this.running && this.fileOf(this.running)) this.silence = window.setTimeout(() => this.restart('', isSilent), silence_ms);
   }
 
   private takeHead(job: Job, status: number, headers: Record<string, string>): void {
@@ -170,6 +199,16 @@ export class ProgramInPage implements Program {
     } catch {
       // its reader has left
     }
+  }
+
+  /** As over HTTP what takes long is answered with its state, which is asked for again until it has ended. */
+  private takeState(job: Job, state: string | undefined): void {
+    if (job.isLeft || state === undefined) return;
+    job.state = state;
+    job.answered(new Response(state, { status: 202, headers: json }));
+    const asks = ({ method, target }: Job) => method === 'GET' && target === job.target;
+    for (const waiting of this.queue.filter(asks)) waiting.answered(new Response(state, { headers: json }));
+    this.queue = this.queue.filter((waiting) => !asks(waiting));
   }
 
   private takeOpened(job: Job, place: number, item: number | null, sentence: string): void {
@@ -189,11 +228,11 @@ export class ProgramInPage implements Program {
     this.next();
   }
 
-  /** The worker has broken down. */
-  private restart(reason: string): void {
+  /** The worker has broken down, or is silent. */
+  private restart(reason: string, sentence = hasBroken): void {
     if (!this.isReady) {
       this.worker.terminate();
-      const sentence = `The program cannot run in this browser (${reason}); it needs WebAssembly with SIMD and exceptions: Chrome 95, Firefox 100, Safari 16.4 or newer.`;
+      const sentence = cannotRun(reason);
       this.absence = new Refusal(0, 'unreachable', sentence);
       for (const job of this.queue.splice(0)) this.fail(job, this.absence);
       return this.listener.restarted(sentence);
@@ -202,9 +241,7 @@ export class ProgramInPage implements Program {
     // In its place stands a file without content: the others keep their numbers.
     this.given = this.given.map((files) => files.map((file) => (file === culprit ? new File([], file.name) : file)));
     this.begin(
-      culprit
-        ? `Reading ${culprit.name} broke the program down; it was started again without that file.`
-        : 'The program broke down and was started again; please report what you did.',
+      culprit ? sentence(culprit.name) : 'The program broke down and was started again; please report what you did.',
     );
   }
 
@@ -218,6 +255,7 @@ export class ProgramInPage implements Program {
   private begin(sentence: string | null): void {
     this.worker.terminate();
     this.failRunning(sentence ?? 'Stopped.');
+    this.listen();
     const waiting = this.queue;
     this.queue = [];
     this.itemFiles.clear();

@@ -2,6 +2,7 @@
 import type { Ask, FromWorker, Open, Saved, Start, ToWorker } from './messages';
 import { BlockReader } from './block_reader';
 import { isSession, withPaths } from './session_paths';
+import { unpacked, unpackedTable } from './unpacked';
 import { zipOf } from './zip';
 
 interface Engine {
@@ -20,6 +21,7 @@ interface Engine {
     rmdir(path: string): void;
   };
   WORKERFS: { stream_ops: { read: Read } };
+  wasmTable: { get(place: number): Compute };
 }
 
 /** Of the files that are mounted. */
@@ -31,9 +33,15 @@ declare class FileReaderSync {
 
 declare function rheocyteEngine(options: object): Promise<Engine>;
 
+type Compute = (...values: number[]) => unknown;
+/** Promises within WebAssembly, which not all browsers have. */
+const pauses = WebAssembly as unknown as { Suspending?: new (wait: unknown) => unknown; promising(compute: Compute): Compute };
+
 const tables = '/tables', exports = '/exports', given = '/recordings', sessions = '/sessions';
 
 let engine: Engine;
+/** Answers a request: method, target and body as places in memory, and the size of the body. */
+let compute: Compute;
 let opened = 0;
 /** Of tables and files that were given, by their names. */
 const places = new Map<string, string>();
@@ -41,16 +49,11 @@ const places = new Map<string, string>();
 let id = 0;
 let head = { status: 0, type: '', headers: {} as Record<string, string> };
 let text = '';
+/** Of what is computed now. */
+let target = '';
+let looked = 0, isLooking = false, isLeft = false;
 
 const tell = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
-
-async function unpacked(base64: string): Promise<Uint8Array> {
-  const letters = atob(base64);
-  const bytes = new Uint8Array(letters.length);
-  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
 
 const question = new FileReaderSync();
 const reader = new BlockReader((piece) => question.readAsArrayBuffer(piece));
@@ -59,29 +62,86 @@ const readBlocks: Read = ({ node: { contents } }, buffer, offset, length, positi
 
 const isExport = (target: string) => target === '/api/export';
 
+/** While the program asks whether it should go on, messages are taken: without that it ends with its worker alone. */
+const canPause = pauses.Suspending !== undefined;
+
+/** For the loader, which makes of the exports those that it calls. */
+type Take = (instance: WebAssembly.Instance) => WebAssembly.Exports;
+
+const instantiate = (program: WebAssembly.Module) => (imports: WebAssembly.Imports, take: Take) => {
+  for (const part of Object.values(imports))
+    for (const [key, value] of Object.entries(part))
+      if (canPause && (value as { name?: string }).name === 'engine_is_wanted')
+        part[key] = new pauses.Suspending!(value) as WebAssembly.ImportValue;
+  return take(new WebAssembly.Instance(program, imports));
+};
+
+function pausing(whole: Compute): Compute {
+  try {
+    return canPause ? pauses.promising(whole) : whole;
+  } catch {
+    return whole; // that stands in for the program
+  }
+}
+
 async function start(message: Start): Promise<void> {
   engine = await rheocyteEngine({
-    wasmBinary: await unpacked(message.wasm),
+    instantiateWasm: instantiate(await WebAssembly.compile(await unpacked(message.wasm))),
     print: () => undefined,
     printErr: () => undefined,
     takeHead: (status: number, type: string, headers: Record<string, string>) => void (head = { status, type, headers }),
     takePiece,
+    isWanted,
   });
   engine.WORKERFS.stream_ops.read = readBlocks;
   for (const folder of [tables, exports, given, sessions]) engine.FS.mkdirTree(folder);
   for (const [name, content] of message.tables) {
     places.set(name, `${tables}/${name}`);
-    engine.FS.writeFile(`${tables}/${name}`, await unpacked(content));
+    engine.FS.writeFile(`${tables}/${name}`, await unpackedTable(content));
   }
   engine.ccall('rheocyte_start', null, ['string', 'string'], [tables, exports]);
+  compute = pausing(engine.wasmTable.get(Number(engine.ccall('rheocyte_entry', 'number', [], []))));
   tell({ kind: 'ready' });
+}
+
+/** Lets a message of the page be taken while the program waits. */
+const messages = new MessageChannel();
+const messageTaken = () =>
+  new Promise<void>((taken) => {
+    messages.port1.onmessage = () => taken();
+    messages.port2.postMessage(null);
+  });
+
+const look_every_ms = 100;
+/** Of work whose state can be asked for. */
+const hasState = /^\/api\/items\/\d+\/moduli$/;
+
+/** Asked by the program while it computes, as often as it likes: whether the page still waits. Tells that it works. */
+function isWanted(): boolean | Promise<boolean> {
+  if (isLeft || isLooking || performance.now() - looked < look_every_ms) return !isLeft;
+  looked = performance.now();
+  tell({ kind: 'works', id, state: hasState.test(target) ? state() : undefined });
+  return canPause ? messageTaken().then(() => !isLeft) : true;
+}
+
+/** The program answers a question within the answer that it computes. */
+function state(): string | undefined {
+  const outer = head;
+  text = '';
+  isLooking = true;
+  engine.ccall('rheocyte_request', null, ['string', 'string', 'number', 'number'], ['GET', target, 0, 0]);
+  isLooking = false;
+  const found = head.status === 200 ? text : undefined;
+  head = outer;
+  text = '';
+  return found;
 }
 
 let isHeadSent = false;
 let exporting = false;
 
 function takePiece(piece: Uint8Array): void {
-  if (exporting) return void (text += new TextDecoder().decode(piece));
+  if (exporting || isLooking) return void (text += new TextDecoder().decode(piece));
   sendHead();
   tell({ kind: 'piece', id, piece }, [piece.buffer]);
 }
@@ -132,13 +192,17 @@ function endExport(): Saved | undefined {
   return saved;
 }
 
-function ask(message: Ask): void {
+async function ask(message: Ask): Promise<void> {
   begin(message);
-  exporting = isExport(message.target);
+  ({ target } = message);
+  looked = performance.now();
+  isLeft = false;
+  exporting = isExport(target);
   const size = new TextEncoder().encode(message.body).length;
-  const body = engine.stringToNewUTF8(message.body); // a picture would not fit on the stack
-  engine.ccall('rheocyte_request', null, ['string', 'string', 'number', 'number'], [message.method, message.target, body, size]);
-  engine._free(body);
+  // Not on the stack, on which others may stand when it goes on.
+  const texts = [message.method, target, message.body].map((each) => engine.stringToNewUTF8(each));
+  await compute(...texts, size);
+  texts.forEach((place) => engine._free(place));
   const saved = exporting ? endExport() : undefined;
   sendHead();
   tell({ kind: 'end', id, saved }, saved ? [saved.bytes.buffer] : []);
@@ -174,7 +238,8 @@ function open(message: Open): void {
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   try {
     if (data.kind === 'start') await start(data);
-    else if (data.kind === 'ask') ask(data);
+    else if (data.kind === 'ask') await ask(data);
+    else if (data.kind === 'leave') isLeft ||= data.id === id;
     else open(data);
   } catch (failure) {
     tell({ kind: 'broken', reason: String(failure instanceof Error ? failure.message : failure) });
