@@ -1,4 +1,4 @@
-// A combined table as one file: in single precision, but for the places of its branches.
+// A combined table as one file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind combined_kind{"rheocyte combined cells", "2", "combined table",
-                                   "`rheocyte table` with the table's spec writes it anew", "1"};
+constexpr RecordKind combined_kind{"rheocyte combined cells", "1", "combined table",
+                                   "`rheocyte table` with the table's spec writes it anew"};
 constexpr std::size_t place_numbers = 4, max_branches = 100000, max_samples = 10000;
 
 using Features = Eigen::Matrix<double, Eigen::Dynamic, feature_count, Eigen::RowMajor>;
@@ -25,10 +25,10 @@ json record_of_branch(const CombinedBranch& branch) {
   const Features value = branch.value, slope = branch.slope;
   return {{"place", blob_of(std::array{radius, share, ratio, axial})},
           {"samples", branch.samples()},
-          {"stiffness_kPa", single_blob_of(branch.stiffness_kPa)},
-          {"error", single_blob_of(branch.error)},
-          {"value", single_blob_of({value.data(), std::size_t(value.size())})},
-          {"slope", single_blob_of({slope.data(), std::size_t(slope.size())})}};
+          {"stiffness_kPa", blob_of(branch.stiffness_kPa)},
+          {"error", blob_of(branch.error)},
+          {"value", blob_of({value.data(), std::size_t(value.size())})},
+          {"slope", blob_of({slope.data(), std::size_t(slope.size())})}};
 }
 
 CombinedBranch branch_in(const json& record) {

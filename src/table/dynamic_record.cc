@@ -1,4 +1,4 @@
-// The ways of a dynamic table's cells, and the table itself, as bytes; the table in single precision.
+// The ways of a dynamic table's cells, and the table itself, as bytes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,19 +19,20 @@ using nlohmann::json;
 constexpr std::size_t largest_table = std::size_t{256} << 20U;
 constexpr RecordKind course_kind{"rheocyte course", "1", "record of a cell's way",
                                  "delete it, and it is computed again"};
-constexpr RecordKind table_kind{"rheocyte dynamic table", "2", "dynamic table",
-                                "compute it again with `rheocyte table`, or give another one", "1"};
+constexpr RecordKind table_kind{"rheocyte dynamic table", "1", "dynamic table",
+                                "compute it again with `rheocyte table`, or give another one"};
 
 constexpr std::size_t max_places = 1000;
 
-using Blob = json (*)(std::span<const double>);
-
-json course_record(const CellCourse& course, Blob blob) {
-  return {
-      {"radius_um", course.cell.radius_um}, {"young_modulus_kPa", course.cell.young_modulus_kPa},
-      {"time_ms", course.cell.time_ms},     {"status", name(course.status)},
-      {"message", course.message},          {"seconds", course.seconds},
-      {"places", course.value.rows()},      {"value", blob({course.value.data(), std::size_t(course.value.size())})}};
+json course_record(const CellCourse& course) {
+  return {{"radius_um", course.cell.radius_um},
+          {"young_modulus_kPa", course.cell.young_modulus_kPa},
+          {"time_ms", course.cell.time_ms},
+          {"status", name(course.status)},
+          {"message", course.message},
+          {"seconds", course.seconds},
+          {"places", course.value.rows()},
+          {"value", blob_of({course.value.data(), std::size_t(course.value.size())})}};
 }
 
 /// Bounds that the way of every cell keeps, far from what the tables hold; NaN keeps none.
@@ -90,7 +91,7 @@ DynamicContent dynamic_content(std::string_view bytes, const std::string& file) 
 }  // namespace
 
 std::string to_bytes(const CellCourse& course, const std::string& spec_hash) {
-  return sealed_record(course_kind, spec_hash, course_record(course, blob_of));
+  return sealed_record(course_kind, spec_hash, course_record(course));
 }
 
 CellCourse course_from_bytes(std::string_view bytes, const std::string& spec_hash, const DynamicCell& wanted,
@@ -106,7 +107,7 @@ std::string dynamic_file_name(const std::string& identifier) { return fmt::forma
 
 std::string to_bytes(const DynamicContent& content) {
   json courses = json::array();
-  for (const CellCourse& course : content.courses) courses.push_back(course_record(course, single_blob_of));
+  for (const CellCourse& course : content.courses) courses.push_back(course_record(course));
   return sealed_record(table_kind, spec_hash(content.spec),
                        {{"program", content.program}, {"spec", to_toml(content.spec)}, {"courses", courses}});
 }

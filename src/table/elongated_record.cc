@@ -1,4 +1,4 @@
-// The file of a table of elongated cells: in single precision, but for the places of its branches.
+// The file of a table of elongated cells.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr RecordKind elongated_kind{"rheocyte elongated cells", "2", "table of elongated cells",
-                                    "`rheocyte table` with the table's spec writes it anew", "1"};
+constexpr RecordKind elongated_kind{"rheocyte elongated cells", "1", "table of elongated cells",
+                                    "`rheocyte table` with the table's spec writes it anew"};
 constexpr const char* at_rest_key = "are_long_at_rest";  // only of those
 constexpr int fewest_nodes = 4, max_nodes = 100;
 constexpr double largest_ratio = 10;  // tensions over moduli are far below
@@ -77,13 +77,13 @@ ElongatedContent content_from(const json& record) {
 
 std::string to_bytes(const ElongatedContent& content) {
   json values = json::array();
-  for (const auto& value : content.value) values.push_back(single_blob_of(value));
+  for (const auto& value : content.value) values.push_back(blob_of(value));
   json record = {{"radii_um", blob_of(content.radii_um)},
                  {"count_of_radii", content.radii_um.size()},
                  {"axial_ratios", blob_of(content.axial_ratios)},
                  {"count_of_axial_ratios", content.axial_ratios.size()},
                  {"states", content.states},
-                 {"modulus_kPa", single_blob_of(content.modulus_kPa)},
+                 {"modulus_kPa", blob_of(content.modulus_kPa)},
                  {"values", std::move(values)},
                  {"error", content.error}};
   if (content.elongation == Elongation::by_rest_shape) record[at_rest_key] = true;

@@ -33,10 +33,10 @@ void read_all(const std::uint8_t* data, std::size_t size) {
 /// Kind and format of the records, as they are written now.
 constexpr std::array<std::array<std::string_view, 2>, 6> kinds{{{"rheocyte branch", "2"},
                                                                 {"rheocyte grid", "2"},
-                                                                {"rheocyte elongated cells", "2"},
-                                                                {"rheocyte combined cells", "2"},
+                                                                {"rheocyte elongated cells", "1"},
+                                                                {"rheocyte combined cells", "1"},
                                                                 {"rheocyte course", "1"},
-                                                                {"rheocyte dynamic table", "2"}}};
+                                                                {"rheocyte dynamic table", "1"}}};
 
 }  // namespace
 

@@ -6,7 +6,6 @@
 
 #include "../refusal.h"
 #include "case/user_error.h"
-#include "in_single_precision.h"
 #include "invented_branch.h"
 #include "invented_combined.h"
 #include "invented_elongated_combined.h"
@@ -52,16 +51,11 @@ TEST(CombinedTable, ReadsBackToTheSameBits) {
   }
 }
 
-TEST(CombinedTable, AsOneFileItGivesBackTheSameNumbersAndDamageIsRefusedInASentence) {
+TEST(CombinedTable, AsOneFileItGivesBackTheSameBitsAndDamageIsRefusedInASentence) {
   CombinedTable table = invented_combined_table(std::vector<std::string>{"table.radii=2"});
   const std::string bytes = to_bytes(table);
   const CombinedTable back = combined_from_bytes(bytes, "combined.cbor");
-  EXPECT_EQ(to_bytes(back), bytes);
-  ASSERT_EQ(back.branches.size(), table.branches.size());
-  EXPECT_EQ(back.branches.back().place.radius_um, table.branches.back().place.radius_um);
-  EXPECT_EQ(back.branches.back().stiffness_kPa, in_single_precision(table.branches.back().stiffness_kPa));
-  EXPECT_EQ(back.branches.back().value, table.branches.back().value.cast<float>().cast<double>());
-  EXPECT_EQ(back.branches.back().slope, table.branches.back().slope.cast<float>().cast<double>());
+  EXPECT_EQ(combined_table_csv(back), combined_table_csv(table));
   EXPECT_EQ(to_toml(back.spec), to_toml(table.spec));
   std::string cut = bytes, changed = bytes;
   cut.resize(bytes.size() / 2);

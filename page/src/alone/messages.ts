@@ -1,9 +1,16 @@
 // What page and worker say to each other.
+export interface PackedTable {
+  name: string;
+  /** of most of its numbers, in bytes */
+  size: number;
+  content: string;
+}
+
 export interface Start {
   kind: 'start';
-  /** as single.mjs packs it, and the tables, which follow their names */
+  /** as single.mjs packs it */
   wasm: string;
-  tables: [string, string][];
+  tables: PackedTable[];
 }
 
 export interface Ask {

@@ -1,7 +1,7 @@
 // The program as WebAssembly in a worker of this page, in the place of a server: one request after another.
 import { Refusal, type Program } from '../api';
 import { cannotRun } from './needed';
-import type { FromWorker, Open, Saved, Start, ToWorker } from './messages';
+import type { FromWorker, Open, PackedTable, Saved, Start, ToWorker } from './messages';
 
 interface Job {
   id: number;
@@ -39,7 +39,7 @@ const aborted = () => new DOMException('', 'AbortError');
 export interface Parts {
   script: string;
   wasm: string;
-  tables: [string, string][];
+  tables: PackedTable[];
 }
 
 export interface Listener {

@@ -95,9 +95,9 @@ async function start(message: Start): Promise<void> {
   });
   engine.WORKERFS.stream_ops.read = readBlocks;
   for (const folder of [tables, exports, given, sessions]) engine.FS.mkdirTree(folder);
-  for (const [name, content] of message.tables) {
-    places.set(name, `${tables}/${name}`);
-    engine.FS.writeFile(`${tables}/${name}`, await unpackedTable(content));
+  for (const table of message.tables) {
+    places.set(table.name, `${tables}/${table.name}`);
+    engine.FS.writeFile(`${tables}/${table.name}`, await unpackedTable(table));
   }
   engine.ccall('rheocyte_start', null, ['string', 'string'], [tables, exports]);
   compute = pausing(engine.wasmTable.get(Number(engine.ccall('rheocyte_entry', 'number', [], []))));
