@@ -1,9 +1,11 @@
 // How well the law of cells with bulk, cortex and tensions comes back from virtual recordings: population_moments TABLE
-// [--recordings 40] [--cells 500] [--young 2] [--cortex 10] [--viscosity 15] [--tension 0.3]
+// [--recordings 40] [--cells 500] [--young 2] [--cortex 10] [--viscosity 15] [--tension 0.3] [--radius 6.5]
+// [--least-area UM2] [--greatest-area UM2] [--first-seed 1] [--each 1]
 //
 // TABLE: combined_*.cbor. Cells of 6.5 um: E (kPa), E2D (mN/m) lognormal with a spread of 20 %, r0 of 7 %, tension over
 // E2D of 0.3 with 30 %; the axial tension, over the wall's shear stress, is the same for all. Each is seen once in
-// pixels of 0.34 um, as an outline whose hull has the modes of the table.
+// pixels of 0.34 um, as an outline whose hull has the modes of the table. Gates on the measured area keep --cells of
+// them; the truth is that of all cells whose shape is in the table. With --each a line for each recording.
 #include <fmt/format.h>
 
 #include <array>
@@ -27,12 +29,27 @@ constexpr double pixel_um = 0.34;
 
 struct Wanted {
   int recordings = 40, cells = 500;
-  double young = 2, cortex = 10, viscosity = 15, tension = 0.3;
+  double young = 2, cortex = 10, viscosity = 15, tension = 0.3, radius = 6.5;
+  double least_area = 0, greatest_area = HUGE_VAL;
+  int first_seed = 1;
+  bool each = false;
 };
 
-/// Of one recording: the means of the numbers of the cells that were seen.
+/// Of one recording: the means of the numbers of its cells, also of those that gates leave out.
 struct Truth {
   double stiffness = 0, young = 0, cortex = 0, ratio = 0;
+  int cells = 0, without_shape = 0;
+
+  void add(const VirtualCell& cell) {
+    stiffness += std::log(cell.stiffness + cell.cortex_modulus_mN_per_m / cell.radius_um);
+    young += std::log(cell.stiffness);
+    cortex += std::log(cell.cortex_modulus_mN_per_m);
+    ratio += cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
+    ++cells;
+  }
+  void divide() {
+    for (double* const sum : {&stiffness, &young, &cortex, &ratio}) *sum /= cells;
+  }
 };
 
 class Recordings {
@@ -44,55 +61,68 @@ class Recordings {
         moduli_(between_, simulated_, {features_of_contour(7), true, 0}),
         flow_{20, 0.04, wanted.viscosity, simulated_.exponent},
         shapes_(table_, {simulated_, flow_}),
+        log_area_{std::log(wanted.least_area), std::log(wanted.greatest_area)},
         wanted_(wanted) {}
 
   std::vector<MeasuredCell> seen(std::uint64_t seed, Truth& truth) const {
     std::vector<MeasuredCell> cells;
     for (std::uint64_t number = 0; int(cells.size()) < wanted_.cells; ++number) {
       CellRandom random(seed, number, Purpose::population);
-      VirtualCell cell;
-      cell.radius_um = 6.5 * std::exp(0.07 * random.normal());
-      cell.stiffness = wanted_.young * std::exp(0.2 * random.normal());
-      cell.cortex_modulus_mN_per_m = wanted_.cortex * std::exp(0.2 * random.normal());
-      const double ratio = 0.3 * (1 + 0.3 * random.normal());
-      cell.tension_mN_per_m = ratio * cell.cortex_modulus_mN_per_m;
-      cell.viscosity_mPas = flow_.viscosity_mPas;
-      cell.axial_tension_Pa = wanted_.tension * wall_shear_stress_Pa(flow_);
+      const VirtualCell cell = drawn(random);
       const auto shape = shapes_.shape(cell);
-      if (!std::holds_alternative<CellShape>(shape)) continue;
+      if (!std::holds_alternative<CellShape>(shape)) {
+        ++truth.without_shape;
+        continue;
+      }
+      truth.add(cell);
       const double along = random.uniform() - 0.5, across = random.uniform() - 0.5;
-      cells.push_back(
-          {features_in_pixels(silhouette(std::get<CellShape>(shape).meridian), pixel_um, {along, across}), flow_});
-      const double n = wanted_.cells;
-      truth.stiffness += std::log(cell.stiffness + cell.cortex_modulus_mN_per_m / cell.radius_um) / n;
-      truth.young += std::log(cell.stiffness) / n;
-      truth.cortex += std::log(cell.cortex_modulus_mN_per_m) / n;
-      truth.ratio += ratio / n;
+      const ShapeVector features =
+          features_in_pixels(silhouette(std::get<CellShape>(shape).meridian), pixel_um, {along, across});
+      if (log_area_.pass(features(int(ShapeFeature::area_um2)))) cells.push_back({features, flow_});
     }
+    truth.divide();
     return cells;
   }
 
   CombinedPopulation found(const std::vector<MeasuredCell>& cells) const {
-    return fit_combined_population(moduli_, {flow_, Section::tube, 1}, pixel_um, cells, [] {});
+    return fit_combined_population(moduli_, {{flow_, Section::tube, 1}, pixel_um, log_area_}, cells, [] {});
   }
 
  private:
+  VirtualCell drawn(CellRandom& random) const {
+    VirtualCell cell;
+    cell.radius_um = wanted_.radius * std::exp(0.07 * random.normal());
+    cell.stiffness = wanted_.young * std::exp(0.2 * random.normal());
+    cell.cortex_modulus_mN_per_m = wanted_.cortex * std::exp(0.2 * random.normal());
+    cell.tension_mN_per_m = 0.3 * (1 + 0.3 * random.normal()) * cell.cortex_modulus_mN_per_m;
+    cell.viscosity_mPas = flow_.viscosity_mPas;
+    cell.axial_tension_Pa = wanted_.tension * wall_shear_stress_Pa(flow_);
+    return cell;
+  }
+
   CombinedTable table_;
   CombinedInterpolation between_;
   ChannelFlow simulated_;
   BulkCortexFit moduli_;
   ChannelFlow flow_;
   CombinedShapes shapes_;
+  ValueGate log_area_;
   Wanted wanted_;
 };
 
-/// Of one number in many recordings.
+/// Of one number in a recording.
+struct Told {
+  std::string name;
+  double value, truth, standard_error;
+};
+
+/// In many recordings.
 struct Tally {
   std::vector<double> off, error;
 
-  void take(double value, double truth, double standard_error) {
-    off.push_back(value - truth);
-    error.push_back(standard_error);
+  void take(const Told& told) {
+    off.push_back(told.value - told.truth);
+    error.push_back(told.standard_error);
   }
   void print(const std::string& name) const {
     const auto n = double(off.size());
@@ -111,16 +141,22 @@ struct Tally {
 
 Wanted wanted_by(int argc, char** argv) {
   Wanted wanted;
-  for (int i = 2; i + 1 < argc; i += 2) {
-    const std::string name = argv[i];
-    const double value = std::stod(argv[i + 1]);
-    if (name == "--recordings") wanted.recordings = int(value);
-    if (name == "--cells") wanted.cells = int(value);
-    if (name == "--young") wanted.young = value;
-    if (name == "--cortex") wanted.cortex = value;
-    if (name == "--viscosity") wanted.viscosity = value;
-    if (name == "--tension") wanted.tension = value;
-  }
+  double recordings = wanted.recordings, cells = wanted.cells, first_seed = wanted.first_seed, each = 0;
+  const std::map<std::string, double*> options{{"--recordings", &recordings},
+                                               {"--cells", &cells},
+                                               {"--young", &wanted.young},
+                                               {"--cortex", &wanted.cortex},
+                                               {"--viscosity", &wanted.viscosity},
+                                               {"--tension", &wanted.tension},
+                                               {"--radius", &wanted.radius},
+                                               {"--least-area", &wanted.least_area},
+                                               {"--greatest-area", &wanted.greatest_area},
+                                               {"--first-seed", &first_seed},
+                                               {"--each", &each}};
+  for (int i = 2; i + 1 < argc; i += 2)
+    if (const auto found = options.find(argv[i]); found != options.end()) *found->second = std::stod(argv[i + 1]);
+  wanted.recordings = int(recordings), wanted.cells = int(cells), wanted.first_seed = int(first_seed);
+  wanted.each = each > 0;
   return wanted;
 }
 
@@ -130,6 +166,16 @@ double error_of(const CombinedPopulation& found, double CombinedLogs::*log) {
   return std::sqrt(slopes.dot((found.fit.covariance + found.common_covariance) * slopes));
 }
 
+void print(int seed, const CombinedPopulation& found, const std::vector<Told>& all) {
+  fmt::print("{:3}", seed);
+  for (const Told& told : all)
+    fmt::print(" {:+.4f}({:+.1f})", told.value - told.truth, (told.value - told.truth) / told.standard_error);
+  fmt::print(" kept {:.2f}", found.kept_share);
+  for (int a = 0; a < combined_parameters; ++a)
+    fmt::print(" {:.3f}{}", found.fit.parameters(a), found.fit.at_bound[std::size_t(a)] ? "!" : "");
+  fmt::print("\n");
+}
+
 }  // namespace
 
 int rheocyte::measure(int argc, char** argv) {
@@ -137,24 +183,30 @@ int rheocyte::measure(int argc, char** argv) {
   const Wanted wanted = wanted_by(argc, argv);
   const Recordings recordings(argv[1], wanted);
   std::map<std::string, Tally> tallies;
-  for (int seed = 1; seed <= wanted.recordings; ++seed) {
+  double kept = 0, without_shape = 0;
+  for (int seed = wanted.first_seed; seed < wanted.first_seed + wanted.recordings; ++seed) {
     Truth truth;
     const auto cells = recordings.seen(std::uint64_t(seed), truth);
     const CombinedPopulation found = recordings.found(cells);
+    kept += double(cells.size()) / truth.cells / wanted.recordings;
+    without_shape += double(truth.without_shape) / (truth.cells + truth.without_shape) / wanted.recordings;
     if (!found.fit.is_found) {
       fmt::print("recording {}: nothing found\n", seed);
       continue;
     }
     const CombinedLogs logs = log_means(found.law);
     constexpr int ratio = int(CombinedParameter::tension_ratio);
-    tallies["ln E"].take(logs.young, truth.young, error_of(found, &CombinedLogs::young));
-    tallies["ln E2D"].take(logs.cortex, truth.cortex, error_of(found, &CombinedLogs::cortex));
-    tallies["ln S"].take(logs.stiffness, truth.stiffness, error_of(found, &CombinedLogs::stiffness));
-    tallies["ln T"].take(logs.axial, std::log(wanted.tension), error_of(found, &CombinedLogs::axial));
-    tallies["tension ratio"].take(
-        found.law.tension_ratio, truth.ratio,
-        std::sqrt(found.fit.covariance(ratio, ratio) + found.common_covariance(ratio, ratio)));
+    const std::vector<Told> all{
+        {"ln E", logs.young, truth.young, error_of(found, &CombinedLogs::young)},
+        {"ln E2D", logs.cortex, truth.cortex, error_of(found, &CombinedLogs::cortex)},
+        {"ln S", logs.stiffness, truth.stiffness, error_of(found, &CombinedLogs::stiffness)},
+        {"ln T", logs.axial, std::log(wanted.tension), error_of(found, &CombinedLogs::axial)},
+        {"tension ratio", found.law.tension_ratio, truth.ratio,
+         std::sqrt(found.fit.covariance(ratio, ratio) + found.common_covariance(ratio, ratio))}};
+    for (const Told& told : all) tallies[told.name].take(told);
+    if (wanted.each) print(seed, found, all);
   }
+  fmt::print("gates keep {:.2f}; cells without a shape {:.3f}\n", kept, without_shape);
   for (const auto& [name, tally] : tallies) tally.print(name);
   return 0;
 }

@@ -55,11 +55,13 @@ class Population:
 
     def check(self):
         """pandas.DataFrame of the checks: recording, measure, fitted, fits, distance, measured and predicted medians with their
-        standard errors."""
+        standard errors, and how many of the three thirds by area fit (of few events none is looked at)."""
         import pandas
 
         return pandas.DataFrame([{"recording": each["recording"], "condition": each["condition"],
-                                  **{name: value for name, value in check.items() if "quantiles" not in name}}
+                                  **{name: value for name, value in check.items()
+                                     if "quantiles" not in name and name != "thirds_by_area"},
+                                  "thirds_that_fit": sum(third["fits"] for third in check.get("thirds_by_area", []))}
                                  for each in self.record["recordings"] for check in each["checks"]])
 
     def plot(self):
@@ -188,7 +190,8 @@ def _recording_row(record, several):
     row = {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
            "events": record["events"]["fitted"], **_moduli(found, several), "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
     if several is None:
-        row.update(correlation=found.get("correlation", np.nan), kept_share=found.get("kept_share", np.nan))
+        row["correlation"] = found.get("correlation", np.nan)
+    row["kept_share"] = found.get("kept_share", np.nan)
     fits = not record["failure"] and all(check["fits"] for check in record["checks"])
     return {**row, "fits": fits, "failure": record["failure"] or ""}
 

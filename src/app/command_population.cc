@@ -11,6 +11,8 @@
 #include "app/recording_batch.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "extract/companion_origin.h"
+#include "extract/population_companion.h"
 #include "extract/population_json.h"
 #include "extract/population_spec.h"
 #include "extract/population_tables.h"
@@ -41,24 +43,46 @@ fs::path events_file(const fs::path& folder, const RecordingReport& r, const Pop
   return folder / to_path(fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1));
 }
 
+fs::path companion_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {
+  return events_file(folder, r, report).replace_extension(".rtdc");
+}
+
 /// What an earlier run has left there and this one may not write anew.
 void remove_earlier(const fs::path& folder) {
   std::error_code none;
   for (const char* const picture :
        {"population.png", "population.svg", "population-checks.png", "population-checks.svg"})
     fs::remove(folder / picture, none);
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().filename().string().starts_with("events_") && is_own_file(entry.path(), mark_of_population_events))
-      fs::remove(entry.path(), none);
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    fs::path file = entry.path();
+    if (!file.filename().string().starts_with("events_") || !is_own_file(file, mark_of_population_events)) continue;
+    fs::remove(file, none);
+    fs::remove(file.replace_extension(".rtdc"), none);
+  }
 }
 
-void write(const fs::path& folder, const PopulationReport& report) {
+void write_companion(const fs::path& place, const RecordingReport& r, const PopulationOptions& options) {
+  AtomicFile file = population_companion_file(place);
+  const std::string missing =
+      read_isolated(r.recording, options.measuring, options.quiet, [&](const TellProgress& report_progress) {
+        return write_population_companion(file.scratch(), r, report_progress);
+      });
+  file.publish();
+  if (!missing.empty())
+    tell(fmt::format("{}: uses so many of userdef0 to userdef9 itself that its companion lacks: {}.",
+                     one_line(r.recording.string(), 200), missing));
+}
+
+void write(const PopulationOptions& options, const PopulationReport& report) {
+  const fs::path& folder = options.folder;
   remove_earlier(folder);
   replace_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
   replace_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
   for (const auto& r : report.recordings)
-    if (const std::string events = population_events_table(r); !events.empty())
+    if (const std::string events = population_events_table(r); !events.empty()) {
       replace_own_file(events_file(folder, r, report), events, mark_of_population_events, Foreign::keep);
+      write_companion(companion_file(folder, r, report), r, options);
+    }
 }
 
 void tell_recording(const RecordingReport& r) {
@@ -110,7 +134,7 @@ int run(const PopulationCall& call) {
       tell_recording(analysis.add(c, j, events, go_on_unless_stopped));
     }
   const PopulationReport report = analysis.report();
-  write(options.folder, report);
+  write(options, report);
   draw(drawing, options.folder);
   for (const auto& warning : report.warnings) tell(warning);
   if (!options.quiet) {

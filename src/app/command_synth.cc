@@ -66,9 +66,9 @@ void report(const SynthOptions& options, const VirtualRecording& r) {
 
 int run(const SynthOptions& options) {
   check_output(options);
-  const std::string text = read_case_text(options.spec);
-  for (const auto& remark :
-       remarks_on_names(key_list(synth_keys()), given_keys(text, options.spec.string(), options.settings)))
+  const std::string text = read_case_text(options.spec, specification("synth"));
+  for (const auto& remark : remarks_on_names(
+           key_list(synth_keys()), given_keys(text, options.spec.string(), options.settings, specification("synth"))))
     if (!options.quiet) tell(remark);
   SynthSpec spec = parse_synth_spec(text, options.spec.string(), options.settings);
   const auto shapes = virtual_cells(spec, options.spec.parent_path());

@@ -97,7 +97,7 @@ int make_dynamic_table(const TableOptions& options, const std::string& text) {
 }
 
 int make_table(const TableOptions& options) {
-  if (const std::string text = read_case_text(options.spec);
+  if (const std::string text = read_case_text(options.spec, specification("table"));
       is_dynamic_spec(text, options.spec.string(), options.settings))
     return make_dynamic_table(options, text);
   const TableSpec spec = read_table_spec(options.spec, options.settings);

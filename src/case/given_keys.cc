@@ -121,9 +121,9 @@ GivenKey key_in_setting(std::string_view setting) {
   return given;
 }
 
-std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
-                                 std::span<const std::string> settings) {
-  check_case_text(text, name);
+std::vector<GivenKey> given_keys(std::string_view text, const std::string& name, std::span<const std::string> settings,
+                                 const TextKind& kind) {
+  check_case_text(text, name, kind);
   auto keys = keys_in_toml(text, name);
   for (const auto& setting : settings) keys.push_back(key_in_setting(setting));
   return keys;

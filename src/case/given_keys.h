@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "case/case_text.h"
+
 namespace rheocyte {
 
 /// A value that no parameter takes; the text says what it is, e.g. "an array".
@@ -23,7 +25,7 @@ struct GivenKey {
 /// All keys of a TOML text in the order of the file, and those of `--set` behind them. UserError if the text is no TOML
 /// or harmful (case/case_text.h).
 std::vector<GivenKey> given_keys(std::string_view text, const std::string& name,
-                                 std::span<const std::string> settings = {});
+                                 std::span<const std::string> settings = {}, const TextKind& kind = {});
 
 /// All keys of a TOML text in the order of the file. UserError with the line if the text is no TOML.
 /// The text must have passed check_case_text.

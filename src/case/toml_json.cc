@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "case/case_text.h"
 #include "case/parsed_toml.h"
 #include "case/user_error.h"
 
@@ -44,8 +43,8 @@ Json json_of(const toml::node& node, const std::string& name) {
 
 }  // namespace
 
-Json json_of_toml(std::string_view text, const std::string& name) {
-  check_case_text(text, name);
+Json json_of_toml(std::string_view text, const std::string& name, const TextKind& kind) {
+  check_case_text(text, name, kind);
   return json_of(parsed_toml(text, name), name);
 }
 

@@ -37,6 +37,13 @@ MeasuredCell cell_of(const PopulationEvents& events, std::size_t i) {
   return cell;
 }
 
+ValueGate area_gate(const PopulationEvents& events) {
+  ValueGate gate;
+  if (events.least_area_um2 > 0) gate.least = std::log(events.least_area_um2);
+  if (std::isfinite(events.greatest_area_um2)) gate.greatest = std::log(events.greatest_area_um2);
+  return gate;
+}
+
 struct QuantityOfLaw {
   PopulationQuantity quantity;
   double CombinedLogs::*log;
@@ -184,19 +191,22 @@ std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::
     const auto shown = [feature](const ShapeVector& shape) {
       return feature == int(ShapeFeature::moment_ratio) ? 1 / std::sqrt(std::max(shape(feature), 0.1)) : shape(feature);
     };
-    std::vector<double> measured, predicted;
+    CheckedValues measured, predicted;
+    const auto add = [&](CheckedValues& to, const ShapeVector& shape) {
+      to.values.push_back(shown(shape));
+      to.log_area.push_back(shape(int(ShapeFeature::area_um2)));
+    };
     for (std::size_t i = 0; i < cells.size(); ++i)
-      if (!found.fit.is_stranger[i]) measured.push_back(shown(cells[i].shape));
-    for (const ShapeVector& shape : found.drawn) predicted.push_back(shown(shape));
-    if (measured.empty() || predicted.empty()) return {};
+      if (found.counts[i]) add(measured, cells[i].shape);
+    for (const ShapeVector& shape : found.drawn) add(predicted, shape);
+    if (measured.values.empty() || predicted.values.empty()) return {};
     const bool is_fitted = std::ranges::find(found.features, feature) != found.features.end();
     std::string name = feature == int(ShapeFeature::area_um2)       ? "ln A"
                        : feature == int(ShapeFeature::deformation)  ? "d"
                        : feature == int(ShapeFeature::moment_ratio) ? "inertia ratio"
                                                                     : fmt::format("c{}", feature - mode_2 + min_mode);
-    checks.push_back(compared_measure(std::move(name),
-                                      is_fitted ? MeasureRule::fitted_among_others : MeasureRule::not_fitted,
-                                      std::move(measured), std::move(predicted)));
+    checks.push_back(compared_measure(
+        std::move(name), is_fitted ? MeasureRule::fitted_among_others : MeasureRule::not_fitted, measured, predicted));
   }
   return checks;
 }
@@ -238,15 +248,12 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   for (std::size_t i = 0; i < events.events(); ++i) cells.push_back(cell_of(events, i));
   r.fitted_events = cells.size();
   check_events_of_population(r);
-  if (std::isfinite(events.least_area_um2) || std::isfinite(events.greatest_area_um2))
-    r.warnings.emplace_back(
-        "limits of the area are no part of the model of cells with a cortex: they should leave the population alone, "
-        "or its numbers shift.");
   CombinedReport& combined = r.combined.emplace();
   combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
   combined.wall_stress_Pa = r.wall_stress_Pa();
-  combined.found = fit_combined_population(moduli_, {events.flow, combined.section, table_.section_error_factor()},
-                                           events.pixel_size_um, cells, goes_on);
+  const SeenPopulation seen{
+      {events.flow, combined.section, table_.section_error_factor()}, events.pixel_size_um, area_gate(events)};
+  combined.found = fit_combined_population(moduli_, seen, cells, goes_on);
   const MomentFit& fit = combined.found.fit;
   if (!fit.is_found) {
     r.failure =
@@ -254,8 +261,10 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
         "tells how far single events are from the cells of the table.";
     return;
   }
-  combined.strangers = cells.size() - fit.events;
+  r.beside_table = combined.found.outside;
+  combined.strangers = cells.size() - r.beside_table - fit.events;
   r.fitted_events = fit.events;
+  if (combined.found.kept_share < least_kept_share) refuse_tail(r, combined.found.kept_share);
   r.failure = why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow).length);
   if (!r.failure.empty()) return;
   tell(combined.found, combined, r);

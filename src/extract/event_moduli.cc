@@ -99,7 +99,7 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
 Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
                                            const std::function<void()>& goes_on) const {
   const CombinedPopulation population =
-      fit_combined_population(moduli_, sight(median_of(cells).flow), pixel_size_um_, cells, goes_on);
+      fit_combined_population(moduli_, {sight(median_of(cells).flow), pixel_size_um_}, cells, goes_on);
   return population.fit.is_found ? population.bend : Eigen::VectorXd();
 }
 

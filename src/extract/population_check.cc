@@ -1,16 +1,10 @@
 #include "extract/population_check.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <numeric>
-#include <utility>
 
 #include "measurement/pixel_errors.h"
-#include "numeric/quantile.h"
 #include "population/virtual_event.h"
 
 namespace rheocyte {
@@ -18,17 +12,10 @@ namespace {
 
 constexpr std::size_t draws_per_event = 20, fewest_draws = 10000, most_draws = 50000;
 constexpr int most_tries = 200;
-/// What counts as misfit of a distribution, at n events, of measures that were fitted and of others: these have no
-/// parameters to follow chance with, and the laws of the pixels leave them up to a fifth of their spread.
-constexpr double chance_of_fitted = 1.2, least_of_fitted = 0.04, chance_of_others = 1.63, least_of_others = 0.08;
-/// Of the medians.
-constexpr double most_errors = 5, share_of_fitted = 0.1, share_of_others = 0.2;
-/// Of c_4 and c_5, in which all real cells differ a little from solids.
-constexpr double least_mode_difference = 0.01, most_spreads_of_modes = 0.5;
 constexpr int checked_measures = 6;
 
 enum Checked { checked_area, checked_deformation, checked_inertia, checked_mode_3, checked_mode_4, checked_mode_5 };
-using CheckedValues = std::array<double, checked_measures>;
+using EventValues = std::array<double, checked_measures>;
 
 constexpr std::array<const char*, checked_measures> checked_names{"ln A", "d", "inertia ratio", "c3", "c4", "c5"};
 
@@ -40,7 +27,7 @@ class DrawnPopulation {
       : events_(events), sample_(sample), law_(fitted.law), maps_(maps), solids_(maps.solids(events)) {}
 
   /// False if no such cell passes the gates.
-  bool draw(std::size_t event, CellRandom& random, CheckedValues& values) {
+  bool draw(std::size_t event, CellRandom& random, EventValues& values) {
     const double elongation = sample_.elongation_of_event[event];
     const auto map = maps_.map(events_, elongation);
     const SampleGates& gates = gates_for(elongation);
@@ -74,7 +61,7 @@ class DrawnPopulation {
   }
 
   void add_features(const SolidMaps::Cell& cell, const SeenValues& seen, CellRandom& random,
-                    CheckedValues& values) const {
+                    EventValues& values) const {
     const SolidFeatures f = solids_.seen(cell);
     const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um), mode_3 = f.modes.mode_3;
     const ModeErrors errors = mode_errors(log_area_px, f.modes);
@@ -102,22 +89,8 @@ class DrawnPopulation {
   const SolidMaps& solids_;
 };
 
-double greatest_difference(std::vector<double>& a, std::vector<double>& b) {
-  std::ranges::sort(a);
-  std::ranges::sort(b);
-  double greatest = 0;
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    const double at = std::min(a[i], b[j]);
-    while (i < a.size() && a[i] <= at) ++i;
-    while (j < b.size() && b[j] <= at) ++j;
-    greatest = std::max(greatest, std::abs(double(i) / double(a.size()) - double(j) / double(b.size())));
-  }
-  return greatest;
-}
-
-CheckedValues measured_values(const PopulationEvents& events, std::size_t i) {
-  CheckedValues values{};
+EventValues measured_values(const PopulationEvents& events, std::size_t i) {
+  EventValues values{};
   const auto at = [&](SeenMeasure m) { return events.of(m)[i]; };
   using enum SeenMeasure;
   values = {std::log(at(area_um2)), at(deformation), at(inertia_ratio), at(mode_3), at(mode_4), at(mode_5)};
@@ -125,41 +98,6 @@ CheckedValues measured_values(const PopulationEvents& events, std::size_t i) {
 }
 
 }  // namespace
-
-std::vector<double> check_places() {
-  std::vector<double> places;
-  for (int k = 1; k < 20; ++k) places.push_back(0.05 * k);
-  return places;
-}
-
-MeasureCheck compared_measure(std::string name, MeasureRule rule, std::vector<double> measured,
-                              std::vector<double> predicted) {
-  MeasureCheck check;
-  const bool is_fitted = rule == MeasureRule::fitted;
-  check.is_fitted = is_fitted || rule == MeasureRule::fitted_among_others;
-  check.name = std::move(name);
-  check.events = measured.size();
-  const CountedSample<double> of_measured(measured), of_predicted(predicted);
-  check.measured = {of_measured.quantile(0.5), error_of_median(of_measured)};
-  check.predicted = {of_predicted.quantile(0.5), error_of_median(of_predicted)};
-  check.spread = robust_deviation(of_measured);
-  for (const double place : check_places()) {
-    check.measured_quantiles.push_back(of_measured.quantile(place));
-    check.predicted_quantiles.push_back(of_predicted.quantile(place));
-  }
-  check.distance = greatest_difference(measured, predicted);
-  const double off = std::abs(check.measured.value - check.predicted.value),
-               chance = most_errors * std::hypot(check.measured.error, check.predicted.error);
-  if (rule == MeasureRule::of_all_real_cells) {
-    check.fits = off < std::max(std::min(least_mode_difference, most_spreads_of_modes * check.spread), chance);
-    return check;
-  }
-  const double by_chance = (is_fitted ? chance_of_fitted : chance_of_others) / std::sqrt(double(check.events));
-  const bool is_far = check.distance > std::max(by_chance, is_fitted ? least_of_fitted : least_of_others);
-  const bool is_off = off > std::max(chance, (is_fitted ? share_of_fitted : share_of_others) * check.spread);
-  check.fits = !is_far && !is_off;
-  return check;
-}
 
 std::vector<MeasureCheck> check_population(const PopulationEvents& events, const PopulationSample& sample,
                                            const FittedCells& fitted, PopulationMaps& maps) {
@@ -169,13 +107,13 @@ std::vector<MeasureCheck> check_population(const PopulationEvents& events, const
   std::array<std::vector<double>, checked_measures> measured, predicted;
   DrawnPopulation population(events, sample, fitted, maps);
   for (const std::size_t i : inside) {
-    const CheckedValues values = measured_values(events, i);
+    const EventValues values = measured_values(events, i);
     for (std::size_t m = 0; m < values.size(); ++m) measured[m].push_back(values[m]);
   }
   const std::size_t draws = std::clamp(draws_per_event * inside.size(), fewest_draws, most_draws);
   for (std::size_t k = 0; k < draws; ++k) {
     CellRandom random(0, k, Purpose::population);
-    CheckedValues values;
+    EventValues values;
     if (!population.draw(inside[k * inside.size() / draws], random, values)) continue;
     for (std::size_t m = 0; m < values.size(); ++m) predicted[m].push_back(values[m]);
   }
@@ -187,25 +125,11 @@ std::vector<MeasureCheck> check_population(const PopulationEvents& events, const
     const MeasureRule rule = m == checked_area || m == fitted_measure     ? MeasureRule::fitted
                              : m == checked_mode_4 || m == checked_mode_5 ? MeasureRule::of_all_real_cells
                                                                           : MeasureRule::not_fitted;
-    checks.push_back(compared_measure(checked_names[std::size_t(m)], rule, std::move(measured[std::size_t(m)]),
-                                      std::move(predicted[std::size_t(m)])));
+    checks.push_back(compared_measure(checked_names[std::size_t(m)], rule,
+                                      {measured[std::size_t(m)], measured[checked_area]},
+                                      {predicted[std::size_t(m)], predicted[checked_area]}));
   }
   return checks;
-}
-
-std::string check_text(const std::vector<MeasureCheck>& checks) {
-  std::string off;
-  double greatest = 0;
-  for (const MeasureCheck& check : checks) {
-    greatest = std::max(greatest, check.distance);
-    if (check.fits) continue;
-    off += fmt::format("{}{} is {:.3g}, predicted {:.3g}{}", off.empty() ? "" : "; ", check.name, check.measured.value,
-                       check.predicted.value, check.is_fitted ? "" : " (not fitted)");
-  }
-  if (checks.empty()) return "nothing could be checked";
-  if (off.empty())
-    return fmt::format("all measures fit, also those that were not fitted (greatest distance {:.2f})", greatest);
-  return "does not fit: " + off;
 }
 
 }  // namespace rheocyte

@@ -65,6 +65,18 @@ ordered_json covariance_json(const FittedCells& fitted) {
   return rows;
 }
 
+/// From the smallest to the largest third of the areas.
+ordered_json thirds_json(const MeasureCheck& c) {
+  ordered_json thirds = ordered_json::array();
+  for (const ThirdCheck& third : c.thirds)
+    thirds.push_back({{"events", third.events},
+                      {"fits", third.fits},
+                      {"distance", third.distance},
+                      {"measured_median", json_number(third.measured.value)},
+                      {"predicted_median", json_number(third.predicted.value)}});
+  return thirds;
+}
+
 ordered_json check_json(const MeasureCheck& c) {
   return {{"measure", c.name},
           {"fitted", c.is_fitted},
@@ -76,7 +88,8 @@ ordered_json check_json(const MeasureCheck& c) {
           {"predicted_median_error", json_number(c.predicted.error)},
           {"spread", json_number(c.spread)},
           {"measured_quantiles", c.measured_quantiles},
-          {"predicted_quantiles", c.predicted_quantiles}};
+          {"predicted_quantiles", c.predicted_quantiles},
+          {"thirds_by_area", thirds_json(c)}};
 }
 
 ordered_json images_json(const SingleImages& images) {
@@ -138,6 +151,7 @@ ordered_json combined_json(const RecordingReport& r) {
   json["median_radius_um"] = std::exp(r.log_radius);
   json["spread_of_ln_radius"] = r.radius_spread;
   json["section"] = combined.section == Section::square ? "square" : "tube";
+  json["kept_share"] = combined.found.kept_share;
   json["strangers"] = combined.strangers;
   json["parameters"] = law_json(combined);
   return json;

@@ -60,7 +60,8 @@ PopulationSpec spec_in(const Json& given, const fs::path& folder) {
 
 PopulationSpec read_population_spec(const fs::path& file) {
   const std::string name = file.filename().string();
-  const Json given = json_of_toml(read_case_text(file), name);
+  constexpr TextKind kind = specification("population", true);
+  const Json given = json_of_toml(read_case_text(file, kind), name, kind);
   try {
     return spec_in(given, file.parent_path());
   } catch (const UserError& error) {

@@ -37,7 +37,7 @@ std::string table_of_solids(const PopulationReport& report) {
 /// The quantities one beside the other; nan where a recording does not tell one.
 std::string table_of_combined(const PopulationReport& report) {
   std::string text(mark_of_population_table);
-  text += "events\tradius_um\tln_radius_spread\telongation\twall_stress_Pa";
+  text += "events\tradius_um\tln_radius_spread\telongation\twall_stress_Pa\tkept_share";
   const auto quantities = report.quantities();
   for (const auto quantity : quantities) {
     const auto key = words_of(quantity).key;
@@ -45,9 +45,9 @@ std::string table_of_combined(const PopulationReport& report) {
   }
   text += "\tfits\n";
   for (const auto& r : report.recordings) {
-    text += fmt::format("{}\t{}\t{}\t{}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}", report.conditions[r.condition].name,
+    text += fmt::format("{}\t{}\t{}\t{}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}", report.conditions[r.condition].name,
                         r.session + 1, r.recording.string(), r.fitted_events, std::exp(r.log_radius), r.radius_spread,
-                        r.median_elongation, r.wall_stress_Pa());
+                        r.median_elongation, r.wall_stress_Pa(), r.combined ? r.combined->found.kept_share : no_value);
     for (const auto quantity : quantities) {
       const QuantityEstimate* const e = r.estimate(quantity);
       text +=

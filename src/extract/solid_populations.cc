@@ -6,7 +6,6 @@
 #include <cmath>
 #include <thread>
 
-#include "case/refuse_path.h"
 #include "extract/population_recordings.h"
 
 namespace rheocyte {
@@ -67,10 +66,7 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   settings.threads = threads_;
   settings.with_shrunken = true;
   r.fitted = fit_cells(made.sample, settings);
-  if (r.fitted.state == FitState::tail)
-    refuse_path(r.recording, fmt::format("the gates leave a tail of its cells, {:.1g} of them; nothing certain can be "
-                                         "said of the rest. Widen the gates.",
-                                         r.fitted.kept_share));
+  if (r.fitted.state == FitState::tail) refuse_tail(r, r.fitted.kept_share);
   r.failure = failure_of(r);
   tell_bounds(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));

@@ -20,8 +20,8 @@ constexpr double steepest = 1;
 /// Nodes are placed anew until the cells move less than this share of their spreads: far less than the nodes reach.
 constexpr double settled_share = 0.05;
 constexpr int most_placings = 6;
-/// Gates that keep less tell of a tail alone; where they keep less than the second the likelihood has no parabola.
-constexpr double least_kept = 0.05, parabolic_kept = 0.3;
+/// Where gates keep less the likelihood has no parabola.
+constexpr double parabolic_kept = 0.3;
 /// A spread below this share of what a single image tells is not known by the parabola.
 constexpr double least_share_of_error = 0.5;
 constexpr int profile_steps = 6;
@@ -155,7 +155,7 @@ class CellFit {
 
   FitState state(FittedCells& fitted) const {
     if (start_.measure < start_.noise) return FitState::too_stiff;
-    if (fitted.kept_share < least_kept) return FitState::tail;
+    if (fitted.kept_share < least_kept_share) return FitState::tail;
     const LawVector steps = difference_steps(best_.products);
     const auto covariance = inverse(likelihood_.information(best_.q, steps), best_.at_bound);
     if (!covariance) return FitState::singular;

@@ -8,6 +8,9 @@
 
 namespace rheocyte {
 
+/// Gates that keep less of the cells tell of a tail alone.
+inline constexpr double least_kept_share = 0.05;
+
 enum class FitState {
   fitted,
   too_stiff,  ///< the median measure is below its noise: there is a lower limit alone

@@ -135,7 +135,8 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
         "there is no table of `rheocyte table` (no spec.toml in this folder) and none of the program of this name; "
         "shapes.table names such a folder or table.");
   const fs::path file = spec.table / "spec.toml";
-  if (is_dynamic_spec(read_case_text(file), file.string(), {})) return shapes_of_dynamic_table(spec);
+  if (is_dynamic_spec(read_case_text(file, specification("table")), file.string(), {}))
+    return shapes_of_dynamic_table(spec);
   if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
   const TableFolder folder(spec.table, read_table_spec(file));
   spec.made_of = cells_of(folder.spec().base);

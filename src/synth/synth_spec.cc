@@ -81,7 +81,7 @@ ImageSize SynthSpec::image_size() const {
 }
 
 SynthSpec parse_synth_spec(std::string_view text, const std::string& name, std::span<const std::string> settings) {
-  KeyReading keys(key_list(synth_keys()), given_keys(text, name, settings), name, "synth");
+  KeyReading keys(key_list(synth_keys()), given_keys(text, name, settings, specification("synth")), name, "synth");
   keys.complete();
   SynthSpec spec;
   keys.fill(spec, synth_keys());

@@ -164,7 +164,7 @@ max_young_modulus_kPa = 20.0
 }
 
 bool is_dynamic_spec(std::string_view text, const std::string& name, std::span<const std::string> settings) {
-  return std::ranges::any_of(given_keys(text, name, settings),
+  return std::ranges::any_of(given_keys(text, name, settings, specification("table")),
                              [](const GivenKey& given) { return given.key.starts_with("dynamic."); });
 }
 
@@ -224,10 +224,10 @@ Case case_of(const DynamicSpec& spec, const DynamicCell& cell) {
 
 DynamicSpec parse_dynamic_spec(std::string_view text, const std::string& name, std::span<const std::string> settings) {
   const KeyList known = key_list(case_keys(), dynamic_keys());
-  refuse_keys_of_table(KeyReading(known, given_keys(text, name, settings), name, "dynamic"));
+  refuse_keys_of_table(KeyReading(known, given_keys(text, name, settings, specification("table")), name, "dynamic"));
   std::vector<std::string> all(settings.begin(), settings.end());
   all.insert(all.end(), {"time.end_um=1", "time.output_every_um=1"});  // so that the case is complete; see case_of
-  KeyReading keys(known, given_keys(text, name, all), name, "dynamic");
+  KeyReading keys(known, given_keys(text, name, all, specification("table")), name, "dynamic");
   DynamicSpec spec;
   spec.base = complete_case(keys, {cell_keys.begin(), cell_keys.end()});
   keys.fill(spec, dynamic_keys());

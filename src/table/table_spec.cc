@@ -228,7 +228,8 @@ SweepPoint middle_of(const TableSpec& spec) {
 }  // namespace
 
 TableSpec parse_table_spec(std::string_view text, const std::string& name, std::span<const std::string> settings) {
-  KeyReading keys(key_list(case_keys(), table_keys()), given_keys(text, name, settings), name, "table");
+  KeyReading keys(key_list(case_keys(), table_keys()), given_keys(text, name, settings, specification("table")), name,
+                  "table");
   TableSpec spec;
   keys.fill(spec, table_keys());  // what is given; the sweep decides what of the case is not to be given
   choose_stiffness(spec, keys);
@@ -247,7 +248,7 @@ TableSpec parse_table_spec(std::string_view text, const std::string& name, std::
 }
 
 TableSpec read_table_spec(const std::filesystem::path& file, std::span<const std::string> settings) {
-  return parse_table_spec(read_case_text(file), file.string(), settings);
+  return parse_table_spec(read_case_text(file, specification("table")), file.string(), settings);
 }
 
 std::string to_toml(const TableSpec& spec) {

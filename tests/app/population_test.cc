@@ -1,66 +1,12 @@
 // `rheocyte population` and `rheocyte plan` from virtual recordings to the answers.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "../robustness/run_program.h"
+#include "measurement/metadata.h"
+#include "measurement/recording.h"
+#include "population_fixture.h"
 
 namespace rheocyte::test::population_test {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Cells with a mean of Young's modulus, whose standard deviation is 15 % of it, under a tension.
-std::string cells(double modulus_kPa, double tension_Pa = 500) {
-  return fmt::format(R"([recording]
-cells = 250
-[channel]
-width_um = 20
-[flow]
-rate_ul_per_s = 0.04
-viscosity_mPas = 15
-axial_tension_Pa = {{mean = {}, sd = {}}}
-[cell]
-radius_um = {{mean = 6.3, sd = 0.4}}
-[cell.bulk]
-young_modulus_kPa = {{mean = {}, sd = {}, distribution = "lognormal"}}
-[shapes]
-table = "HE-3D-el-26"
-)",
-                     tension_Pa, 0.2 * tension_Pa, modulus_kPa, 0.15 * modulus_kPa);
-}
-
-/// Standard deviation of ln E of these cells, and ln of their median.
-const double spread = std::sqrt(std::log1p(0.15 * 0.15));
-double log_median(double modulus_kPa) { return std::log(modulus_kPa) - 0.5 * spread * spread; }
-
-class PopulationCommand : public ::testing::Test {
- protected:
-  void SetUp() override {
-    write_file(folder_.path() / "cells.toml", cells(4));
-    write_file(folder_.path() / "drug.toml", cells(5.2));
-  }
-
-  Ended call(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), RHEOCYTE);
-    return run({.arguments = arguments, .folder = folder_.path()});
-  }
-  void synth(const std::string& file, const std::vector<std::string>& settings,
-             const std::string& spec = "cells.toml") const {
-    std::vector<std::string> arguments{"synth", spec, "-o", file, "--quiet", "--force"};
-    for (const auto& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
-    const Ended ended = call(arguments);
-    ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  }
-  nlohmann::json record(const fs::path& folder = "population") const {
-    return nlohmann::json::parse(content_of(folder_.path() / folder / "population.json"));
-  }
-
-  TemporaryFolder folder_;
-};
 
 TEST_F(PopulationCommand, ElongatedVirtualCellsGiveBackTheirPopulationAndTheDifference) {
   for (const std::string seed : {"1", "2"}) {
@@ -95,107 +41,17 @@ TEST_F(PopulationCommand, ElongatedVirtualCellsGiveBackTheirPopulationAndTheDiff
     EXPECT_TRUE(fs::exists(folder_.path() / "population" / (std::string(picture) + ".png"))) << ended.err;
     EXPECT_TRUE(fs::exists(folder_.path() / "population" / (std::string(picture) + ".svg")));
   }
-  EXPECT_NE(content_of(folder_.path() / "population" / "events_drug_2.tsv").find("\n250\t"), std::string::npos);
+  const std::string events = content_of(folder_.path() / "population" / "events_drug_2.tsv");
+  EXPECT_NE(events.find("\n250\t"), std::string::npos);
+  // Virtual cells under tensions use userdef0 to userdef6 for what is true of them: three are left for four values.
+  EXPECT_NE(ended.err.find("its companion lacks: sd of ln radius."), std::string::npos) << ended.err;
+  const Recording companion(folder_.path() / "population" / "events_drug_2.rtdc");
+  EXPECT_EQ(companion.metadata().text("user:rheocyte shrunken modulus"), "userdef7");
+  std::vector<double> moduli(companion.events());
+  companion.read_scalar("userdef7", 0, moduli);
+  EXPECT_NE(events.find(fmt::format("\n250\t{:.5g}\t", moduli[249])), std::string::npos) << moduli[249];
   EXPECT_TRUE(
       content_of(folder_.path() / "population" / "population.tsv").starts_with("condition\tsession\trecording\t"));
-}
-
-/// Cells with a cortex, of these means of E (kPa) and E2D (mN/m), by the program's own table.
-std::string cells_with_cortex(double young_kPa, double cortex_mN_per_m) {
-  return fmt::format(R"([recording]
-cells = 500
-[channel]
-width_um = 20
-[flow]
-rate_ul_per_s = 0.04
-viscosity_mPas = 15
-axial_tension_Pa = {{mean = 250}}
-[cell]
-kind = "combined"
-radius_um = {{mean = 6.5, sd = 0.4}}
-[cell.bulk]
-young_modulus_kPa = {{mean = {}, sd = {}, distribution = "lognormal"}}
-[cell.cortex]
-modulus_mN_per_m = {{mean = {}, sd = {}, distribution = "lognormal"}}
-tension_ratio = {{mean = 0.3, sd = 0.06}}
-)",
-                     young_kPa, 0.2 * young_kPa, cortex_mN_per_m, 0.2 * cortex_mN_per_m);
-}
-
-// A drug that takes a third of the cortex away and leaves the bulk as it is.
-TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
-  write_file(folder_.path() / "cortex.toml", cells_with_cortex(2, 10));
-  write_file(folder_.path() / "less.toml", cells_with_cortex(2, 6.7));
-  synth("control.rtdc", {"recording.seed=1"}, "cortex.toml");
-  synth("drug.rtdc", {"recording.seed=2"}, "less.toml");
-  const Ended ended =
-      call({"population", "--model", "cortex", "--condition", "control=control.rtdc", "--condition", "drug=drug.rtdc"});
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto all = record();
-  EXPECT_EQ(all["model"], "cortex");
-  const double below_mean = std::exp(-0.5 * std::log1p(0.04));  // median of a lognormal law
-  const auto expect_in = [](const nlohmann::json& interval, double truth) {
-    // The interval of 95 % and half as much on either side.
-    const double value = interval["value"], lower = interval["lower"], upper = interval["upper"];
-    EXPECT_GT(truth, lower - (value - lower) / 2) << interval.dump();
-    EXPECT_LT(truth, upper + (upper - value) / 2) << interval.dump();
-  };
-  for (const auto& recording : all["recordings"]) {
-    const double cortex = recording["condition"] == "drug" ? 6.7 : 10;
-    const auto& found = recording["population"];
-    expect_in(found["median_young_modulus_kPa"], 2 * below_mean);
-    expect_in(found["median_cortex_modulus_mN_per_m"], cortex * below_mean);
-    expect_in(found["median_cortex_tension_mN_per_m"], 0.3 * cortex * below_mean);
-    expect_in(found["median_axial_tension_Pa"], 250);
-    EXPECT_NEAR(found["median_radius_um"], 6.5, 0.1);
-    EXPECT_TRUE(found["bulk_and_cortex_not_told_because"].is_null());
-    EXPECT_EQ(found["section"], "tube") << "of the table's own cells";
-    for (const auto& check : recording["checks"]) EXPECT_TRUE(check["fits"]) << check.dump();
-  }
-  for (const auto& comparison : all["comparisons"])
-    if (comparison["quantity"] == "cortex_modulus_mN_per_m") expect_in(comparison["ratio_by_sampling_alone"], 0.67);
-  EXPECT_NE(ended.out.find("drug / control: E2D, ratio 0."), std::string::npos) << ended.out;
-  EXPECT_TRUE(fs::exists(folder_.path() / "population" / "population.png")) << ended.err;
-  EXPECT_NE(content_of(folder_.path() / "population" / "population.tsv").find("\tcortex_modulus_mN_per_m\t"),
-            std::string::npos);
-  EXPECT_NE(ended.out.find(" % of E2D, "), std::string::npos) << "each quantity has its systematic error";
-
-  const Ended outside = call({"population", "--model", "cortex", "--condition", "control=control.rtdc",
-                              "--channel-width-um", "40", "--no-picture"});
-  EXPECT_EQ(outside.exit_code, 3);
-  EXPECT_NE(outside.err.find("are smaller than those of the table, which has 7.9"), std::string::npos) << outside.err;
-  EXPECT_TRUE(record()["conditions"][0]["median_stiffness_kPa"].is_null());
-  EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png")) << "of the run before";
-}
-
-TEST_F(PopulationCommand, SolidsHaveNoCortexToTell) {
-  synth("solids.rtdc", {"recording.cells=300"});
-  const Ended ended =
-      call({"population", "--model", "cortex", "--condition", "a=solids.rtdc", "--no-picture", "--min", "area_um=60"});
-  EXPECT_NE(ended.err.find("limits of the area are no part of the model"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("bulk and cortex are not told apart, because"), std::string::npos) << ended.err;
-  const auto all = record();
-  EXPECT_FALSE(all["conditions"][0].contains("median_cortex_modulus_mN_per_m"));
-  EXPECT_EQ(all["conditions"][0].contains("median_stiffness_kPa"), ended.exit_code == 0);
-}
-
-TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
-  synth("a.rtdc", {"recording.cells=60"});
-  const auto refused = [&](std::vector<std::string> more, const std::string& sentence) {
-    std::vector<std::string> arguments{"population", "--condition", "a=a.rtdc", "--no-picture"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Ended ended = call(arguments);
-    EXPECT_EQ(ended.exit_code, 2) << sentence;
-    EXPECT_NE(ended.err.find(sentence), std::string::npos) << ended.err;
-  };
-  refused({"--model", "cortex", "--by", "deformation"}, "--by deformation and --model cortex contradict each other");
-  refused({"--model", "jelly"}, "--model");
-  refused({"--section", "tube"}, "--section is for --model cortex");
-  refused({"--model", "cortex", "--table", "HE-3D-el-26"},
-          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
-  refused({"--model", "cortex", "--table", "HC-2D-26"},
-          "--table HC-2D-26: there is neither such a file nor such a folder. With the program comes HC-2D-EL-26; any "
-          "other table of cells with bulk and cortex is made first, by `rheocyte table`, which takes");
 }
 
 TEST_F(PopulationCommand, TheSameInputGivesTheSameBytesForAnyNumberOfThreads) {
@@ -264,6 +120,13 @@ TEST_F(PopulationCommand, ASpecificationGivesWhatItsOptionsGive) {
   refused("[conditions]\na = [3]\n", "the condition a must be a list of recordings");
   refused("by = \"asymmetry\"\n", "no condition is given");
   refused("a = \n", "not valid TOML");
+  refused("\n", "the specification is empty; `rheocyte help population` lists its keys");
+  expect_sentence(call({"population", "missing.toml"}), "there is no such specification");
+  fs::copy_file(folder_.path() / "a.rtdc", folder_.path() / "5 \u00B5M.rtdc");
+  write_file(folder_.path() / "names.toml", "[conditions]\n\"5 \u00B5M\" = ['5 \u00B5M.rtdc']\n");
+  ASSERT_EQ(call({"population", "names.toml", "-o", "names", "--quiet", "--no-picture"}).exit_code, 0);
+  EXPECT_EQ(record("names")["conditions"][0]["name"], "5 \u00B5M");
+  EXPECT_TRUE(fs::exists(folder_.path() / "names" / "events_5 \u00B5M_1.tsv"));
   expect_sentence(call({"population", "specs/spec.toml", "--condition", "a=a.rtdc"}), "contradict each other");
 }
 
@@ -315,10 +178,12 @@ TEST_F(PopulationCommand, TwoRecordingsHaveTheirMeanElongationAndOldFilesGo) {
   synth("a.rtdc", {"recording.cells=80"});
   synth("b.rtdc", {"recording.cells=80", "recording.seed=5", "flow.axial_tension_Pa.mean=20"});
   ASSERT_EQ(call({"population", "--condition", "b=b.rtdc", "--no-picture", "--quiet"}).exit_code, 0);
-  EXPECT_TRUE(fs::exists(folder_.path() / "population" / "events_b_1.tsv"));
+  for (const char* const file : {"events_b_1.tsv", "events_b_1.rtdc"})
+    EXPECT_TRUE(fs::exists(folder_.path() / "population" / file)) << file;
   const Ended ended = call({"population", "--condition", "a=a.rtdc,b.rtdc", "--no-picture"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_FALSE(fs::exists(folder_.path() / "population" / "events_b_1.tsv"));
+  for (const char* const file : {"events_b_1.tsv", "events_b_1.rtdc"})
+    EXPECT_FALSE(fs::exists(folder_.path() / "population" / file)) << file;
   const auto recordings = record()["recordings"];
   const double mean = (double(recordings[0]["median_elongation"]) + double(recordings[1]["median_elongation"])) / 2;
   EXPECT_GT(std::abs(double(recordings[0]["median_elongation"]) - mean), 0.01);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "infer/combined_moments.h"
 #include "measurement/shape_in_pixels.h"
 #include "numeric/cell_random.h"
 
@@ -50,11 +51,20 @@ class CombinedPopulationTest : public ::testing::Test {
 };
 
 TEST_F(CombinedPopulationTest, SlopesAreDifferences) {
-  for (const Section section : {Section::tube, Section::square}) {
+  struct Kind {
+    Section section;
+    bool is_gated;
+  };
+  for (const auto [section, is_gated] :
+       {Kind{Section::tube, false}, Kind{Section::square, false}, Kind{Section::tube, true}}) {
     Sight sight = sight_;
     sight.section = section;
-    const CombinedMoments model(moduli_, sight, pixel_um);
+    CombinedMoments model(moduli_, sight, pixel_um);
     const CombinedVector q = usual_law().parameters();
+    if (is_gated) {
+      ASSERT_TRUE(model.render(q, 1000));
+      model.take_gate({model.at(q).mean(0) - 0.02, model.at(q).mean(0) + 0.2});
+    }
     const MomentSlopes slopes = model.slopes(q);
     constexpr double step = 1e-5;
     for (int a = 0; a < combined_parameters; ++a) {
@@ -80,6 +90,34 @@ TEST_F(CombinedPopulationTest, NodesHaveTheMomentsOfManyCells) {
   for (Eigen::Index k = 0; k < mean.size(); ++k) EXPECT_NEAR(mean(k), nodes.mean(k), 3.5 * error(k) + 2e-5) << k;
 }
 
+// The gate is in the middle, beside it, and leaves a tenth.
+TEST_F(CombinedPopulationTest, NodesOfAGateHaveTheMomentsOfTheCellsThatPass) {
+  const CombinedVector q = usual_law().parameters();
+  CombinedMoments model(moduli_, sight_, pixel_um);
+  ASSERT_TRUE(model.render(q, 1000));
+  const double middle = model.at(q).mean(0), spread = std::sqrt(model.at(q).covariance(0, 0));
+  const std::vector<ShapeVector> all = model.drawn(q, 60'000);
+  for (const ValueGate gate :
+       {ValueGate{.least = middle}, ValueGate{.greatest = middle - spread},
+        ValueGate{middle - 0.5 * spread, middle + spread}, ValueGate{.least = middle + 1.3 * spread}}) {
+    std::vector<Eigen::VectorXd> kept;
+    for (const ShapeVector& shape : all)
+      if (gate.pass(shape(int(ShapeFeature::area_um2)))) kept.push_back(shape(model.features()));
+    model.take_gate(gate);
+    EXPECT_NEAR(model.kept_share(q), double(kept.size()) / double(all.size()), 0.006);
+    const Moments nodes = model.at(q);
+    const double n = double(kept.size());
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(nodes.mean.size());
+    for (const auto& each : kept) mean += each / n;
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(nodes.mean.size());
+    for (const auto& each : kept) variance += (each - mean).cwiseAbs2() / n;
+    for (Eigen::Index k = 0; k < mean.size(); ++k) {
+      EXPECT_NEAR(mean(k), nodes.mean(k), 4 * std::sqrt(variance(k) / n) + 5e-5) << k << ", keeps " << n;
+      EXPECT_NEAR(variance(k) / nodes.covariance(k, k), 1, 5 * std::sqrt(2 / n) + 0.02) << k << ", keeps " << n;
+    }
+  }
+}
+
 TEST_F(CombinedPopulationTest, MeansOfDifferentCellsAreBentAwayFromTheMeanCell) {
   const CombinedMoments model(moduli_, sight_, pixel_um);
   CombinedLaw law = usual_law();
@@ -101,7 +139,7 @@ TEST_F(CombinedPopulationTest, MeansOfDifferentCellsAreBentAwayFromTheMeanCell) 
 TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLaw law = usual_law();
   const auto cells = pictures(law, 600, 3);
-  const CombinedPopulation found = fit_combined_population(moduli_, sight_, pixel_um, cells, [] {});
+  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
   ASSERT_TRUE(found.fit.is_found);
   const CombinedVector truth = law.parameters();
   for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_share,
@@ -116,6 +154,25 @@ TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLogs logs = log_means(found.law), true_logs = log_means(law);
   EXPECT_NEAR(logs.young, true_logs.young, 0.25);
   EXPECT_NEAR(logs.cortex, true_logs.cortex, 0.12);
+}
+
+/// A gate at the median area: without it in the model the cells would seem larger, and the rest goes with the size.
+TEST_F(CombinedPopulationTest, AGateOnTheAreaIsPartOfTheModel) {
+  const CombinedLaw law = usual_law();
+  auto cells = pictures(law, 1200, 4);
+  const auto log_area = [](const MeasuredCell& cell) { return cell.shape(int(ShapeFeature::area_um2)); };
+  const ValueGate gate{.least = log_area(median_of(cells))};
+  std::erase_if(cells, [&](const MeasuredCell& cell) { return !gate.pass(log_area(cell)); });
+  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um, gate}, cells, [] {});
+  ASSERT_TRUE(found.fit.is_found);
+  const CombinedVector truth = law.parameters();
+  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
+                       CombinedParameter::axial_tension, CombinedParameter::log_radius_spread}) {
+    const int a = int(p);
+    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
+  }
+  EXPECT_NEAR(found.kept_share, 0.5, 0.1);
+  EXPECT_GT(median_of(cells).shape(int(ShapeFeature::area_um2)) - 2 * truth(0), std::log(3.3)) << "the gate cuts";
 }
 
 TEST(CombinedLaw, MeansOfLogarithmsAreThoseOfManyCells) {
