@@ -98,8 +98,9 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
 
 Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
                                            const std::function<void()>& goes_on) const {
-  const CombinedPopulation population =
-      fit_combined_population(moduli_, {sight(median_of(cells).flow), pixel_size_um_}, cells, goes_on);
+  const SeenPopulation seen{
+      .sight = sight(median_of(cells).flow), .pixel_size_um = pixel_size_um_, .leaves_out_other_sizes = false};
+  const CombinedPopulation population = fit_combined_population(moduli_, seen, cells, goes_on);
   return population.fit.is_found ? population.bend : Eigen::VectorXd();
 }
 

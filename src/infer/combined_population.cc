@@ -110,11 +110,15 @@ class CombinedSearch {
     settings_.most_turns = turns_of_beginning;
     if (std::isfinite(seen_.log_area.least) || std::isfinite(seen_.log_area.greatest)) take_gate(seen_.log_area);
     fit();
+    if (seen_.leaves_out_other_sizes) leave_out_other_sizes();
+    return inside_.size() >= fewest_events;
+  }
+
+  void leave_out_other_sizes() {
     const ValueGate both = within_both(seen_.log_area, model_.gate_of_table(q_));
     const bool is_in_table = both.pass(log_area_of(median_));
     if (is_in_table && !std::ranges::all_of(cells_, [&](const auto& cell) { return both.pass(log_area_of(cell)); }))
       take_gate(both);
-    return inside_.size() >= fewest_events;
   }
 
   void take_gate(const ValueGate& gate) {

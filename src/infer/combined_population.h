@@ -20,6 +20,8 @@ struct SeenPopulation {
   Sight sight;  ///< the viscosity does not count
   double pixel_size_um = 0;
   ValueGate log_area = {};  ///< which measured areas are recorded at all
+  /// Events of sizes that the table does not have are left out; else the law is that of all events as they are.
+  bool leaves_out_other_sizes = true;
 };
 
 struct CombinedPopulation {
@@ -38,7 +40,7 @@ struct CombinedPopulation {
 };
 
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table
-/// are such gates, if its cells have the median area. Not found: no cell of the table is like the median one, or the
+/// are such gates, if that is wanted and its cells have the median area. Not found: no cell of the table is like the median one, or the
 /// events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
 /// viscosity alone.
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
