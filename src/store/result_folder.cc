@@ -117,7 +117,7 @@ void swap_in(const fs::path& scratch, const fs::path& folder) {
 
 bool has_checkpoints(const fs::path& folder) {
   std::error_code error;
-  return std::ranges::any_of(checkpoints, [&](const char* name) { return fs::exists(folder / name, error); });
+  return std::ranges::any_of(checkpoints, [&](const char* name) { return fs::exists(folder / to_path(name), error); });
 }
 
 }  // namespace
