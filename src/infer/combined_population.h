@@ -40,9 +40,9 @@ struct CombinedPopulation {
 };
 
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table
-/// are such gates, if that is wanted and its cells have the median area. Not found: no cell of the table is like the median one, or the
-/// events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
-/// viscosity alone.
+/// are such gates, if that is wanted and its cells have the median area. Not found: no cell of the table is like the
+/// median one, or the events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the
+/// sight's in the viscosity alone.
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on);
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/dclab_plugin.h"
 #include "extract/find_table.h"
@@ -148,13 +149,14 @@ py::list lines(const HeldTable& table, std::vector<double> levels_kPa, int count
 // The table in dclab's format, and its isoelasticity lines.
 void write_texts(const HeldTable& table, const std::string& rows, const std::string& lines) {
   const py::gil_scoped_release without_interpreter;
-  write_texts_of_map(*table.map, rows, lines);
+  write_texts_of_map(*table.map, to_path(rows), to_path(lines));
 }
 
 // Its first line tells whether an older file is one of ours.
 void write_dclab_plugin(const std::string& program, const std::string& file) {
   const py::gil_scoped_release without_interpreter;
-  replace_own_file(file, program + data_of_dclab_plugin(), program.substr(0, program.find('\n')), Foreign::keep);
+  replace_own_file(to_path(file), program + data_of_dclab_plugin(), program.substr(0, program.find('\n')),
+                   Foreign::keep);
 }
 
 py::dict origin(const HeldTable& table) {

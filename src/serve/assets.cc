@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "case/to_path.h"
 #include "numeric/fingerprint.h"
 #include "store/build_info.h"
 #include "store/supplied_folder.h"
@@ -36,7 +37,7 @@ constexpr std::string_view page_is_missing =
 /// Empty for what no page has.
 std::string_view type_of(const fs::path& file) {
   for (const auto& [ending, type] : types)
-    if (file.extension() == ending) return type;
+    if (file.extension() == to_path(ending)) return type;
   return {};
 }
 

@@ -56,7 +56,7 @@ Thread& Thread::operator=(Thread&& other) noexcept {
 }
 
 // Another thread looks after the work.
-BetweenTasks::BetweenTasks(std::function<void()>) {}
+BetweenTasks::BetweenTasks(const std::function<void()>&) {}
 BetweenTasks::~BetweenTasks() = default;
 void look_between_tasks() {}
 

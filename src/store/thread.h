@@ -42,8 +42,8 @@ class Thread {
 /// between tasks (store/tasks.h) as long as this lives. Elsewhere never. One at a time.
 class BetweenTasks {
  public:
-  explicit BetweenTasks(std::function<void()> look);
-  ~BetweenTasks();
+  explicit BetweenTasks(const std::function<void()>& look);
+  ~BetweenTasks();  // NOLINT(performance-trivially-destructible): without threads it has work to do
   BetweenTasks(const BetweenTasks&) = delete;
   BetweenTasks& operator=(const BetweenTasks&) = delete;
 };

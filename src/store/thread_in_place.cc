@@ -16,7 +16,7 @@ std::function<void()>& looks() {
 
 }  // namespace
 
-BetweenTasks::BetweenTasks(std::function<void()> look) { looks() = std::move(look); }
+BetweenTasks::BetweenTasks(const std::function<void()>& look) { looks() = look; }
 BetweenTasks::~BetweenTasks() { looks() = nullptr; }
 
 void look_between_tasks() {
