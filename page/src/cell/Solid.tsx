@@ -4,6 +4,7 @@ import type { Case } from '../api';
 import type { Fields } from '../draw/fields';
 import { theme } from '../shell/theme';
 import { useStore } from '../shell/store';
+import { straightSize } from './cameras';
 import type { SolidView } from './solid3d';
 
 interface SolidProps {
@@ -32,10 +33,8 @@ export function Solid({ solid, of, stale }: SolidProps) {
     };
   }, []);
   useEffect(() => {
-    const width_um = Number(of['channel.width_um'] ?? 20);
-    const height_um = Number(of['channel.height_um'] ?? width_um);
     const camera_degree = Number(of['channel.camera_degree'] ?? (of['channel.camera'] === 'diagonal' ? 45 : 0));
-    view?.show({ ...solid, width_um, height_um, camera_degree });
+    view?.show({ ...solid, ...straightSize(of), camera_degree });
   }, [view, solid, of, shownTheme]);
   return (
     <div

@@ -35,6 +35,8 @@ interface Shown {
   scenes: Scene[];
   painted: Painted;
   solid: Fields['surface3d'];
+  /** what is shown belongs to */
+  of: Case;
 }
 
 function useShown(): Shown {
@@ -50,7 +52,7 @@ function useShown(): Shown {
     if (step) return timeScenes(step, fields, painted, values, solved);
     return solved ? [sceneOf(solved, painted)] : [];
   }, [step, fields, solved, painted, values]);
-  return { scenes, painted, solid: fields?.surface3d ?? null };
+  return { scenes, painted, solid: fields?.surface3d ?? null, of: step || !solved ? values : solved.of };
 }
 
 /** Of each camera. Where there are many steps, some have a contour alone; the fields are those of the first camera. */
@@ -104,11 +106,11 @@ export function View() {
   const now = useStore(looks);
   const refusal = useStore(model.refused);
   const solved = useStore(model.solved);
-  const values = useStore(model.values);
   const {
     scenes,
     painted: { legends },
     solid,
+    of,
   } = useShown();
   const tension = useMemo(() => tensionRange(solved?.fields?.surface), [solved?.fields]);
   const stale = refusal !== null;
@@ -117,7 +119,7 @@ export function View() {
     <section class="view" aria-label="The cell in its channel">
       <div class={scenes.length > 1 && !(now.solid && solid) ? 'stage two' : 'stage'}>
         {now.solid && solid ? (
-          <Solid solid={solid} of={values} stale={stale} />
+          <Solid solid={solid} of={of} stale={stale} />
         ) : (
           scenes.map((scene) => <Channel key={scene.title} scene={scene} looks={now} stale={stale} />)
         )}

@@ -27,15 +27,20 @@ function profiled(places_um: number[] | undefined, distance_um: number[] | undef
 
 const isDuct = (of: Case) => (of['channel.section'] ?? 'tube') !== 'tube';
 
+/** Of the channel where it is straight: a funnel leads into its least width, which is its height, too, unless that is given. */
+export function straightSize(of: Case): { width_um: number; height_um: number } {
+  const widths_um = of['channel.profile.width_um'] as number[] | undefined;
+  const width_um = Number(of['channel.width_um'] ?? (widths_um ? Math.min(...widths_um) : 20));
+  return { width_um, height_um: Number(of['channel.height_um'] ?? width_um) };
+}
+
 /** Half the height of the picture of a straight channel: the tube's radius, or half of what the camera sees of a duct. */
 export function halfOfStraight(of: Case, tubeRadius_um?: number): number {
-  const width_um = Number(of['channel.width_um'] ?? 20);
+  const { width_um, height_um } = straightSize(of);
   if (!isDuct(of)) return tubeRadius_um ?? Number(of['channel.radius_um'] ?? 0.547 * width_um);
-  const height_um = Number(of['channel.height_um'] ?? width_um);
   const aside = titleOfAside(of);
   if (aside) return (aside === fromSide ? height_um : width_um) / 2;
-  const turned = of['channel.section'] === 'rectangle' && Number(of['channel.camera_degree'] ?? 0) > 45;
-  return (turned ? height_um : width_um) / 2;
+  return (of['channel.section'] === 'rectangle' && looksAlongWidth(of) ? height_um : width_um) / 2;
 }
 
 /** A cell off the axis is shown in the plane of its offset; a title is wanted then. */
@@ -53,8 +58,7 @@ export function sightsOf(of: Case, { contour, contours, x_um }: Pick<TimeStep, '
     return [{ title: '', contour, ...profiled(places_um, of['channel.profile.R_um'] as number[] | undefined, halfOfStraight(of), x_um) }];
   }
   const halfWidths_um = (of['channel.profile.width_um'] as number[] | undefined)?.map((width) => width / 2);
-  const width_um = Number(of['channel.width_um'] ?? 20);
-  const height_um = Number(of['channel.height_um'] ?? (halfWidths_um ? 2 * Math.min(...halfWidths_um) : width_um));
+  const { width_um, height_um } = straightSize(of);
   const above = { title: fromAbove, ...profiled(places_um, halfWidths_um, width_um / 2, x_um) };
   const beside = { title: fromSide, radius_um: height_um / 2 };
   const aside = titleOfAside(of);
