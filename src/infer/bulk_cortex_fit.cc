@@ -21,7 +21,7 @@ constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.
 constexpr double prior_widths = 3;
 /// Of the wall's shear stress: what is said to be known exactly is known that well. Hundred times as well as a cell
-/// tells the tension, it leaves the minimum smooth enough for Newton's method.
+/// tells the tension, it leaves covariances regular.
 constexpr double least_tension_error = 1e-3;
 constexpr std::array all_moduli{Modulus::young, Modulus::cortex, Modulus::tension};
 
@@ -118,7 +118,8 @@ ModuliMisfit BulkCortexFit::misfit(const MeasuredShape& measured, const ChannelF
   return {table_,
           shape,
           options_.features,
-          {tension.value_Pa / scale.modulus, std::max(tension.error_Pa / scale.modulus, least_error)}};
+          {tension.value_Pa / scale.modulus, std::max(tension.error_Pa / scale.modulus, least_error)},
+          tension.error_Pa > 0 ? ModuliMisfit::TensionIs::fitted : ModuliMisfit::TensionIs::known};
 }
 
 ShapeVector BulkCortexFit::shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const {
@@ -136,7 +137,7 @@ double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const Channe
          scale_factors(simulated_, flow).modulus;
 }
 
-// All coordinates free, then those that left the table's share and tension held at its border.
+// All coordinates free, then that of share and tension which left the table farthest held at its border, until none is.
 BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
                                                      Share share) const {
   std::vector<int> free{x_radius, x_progress};
@@ -145,20 +146,24 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
   if (table_.is_elongated()) free.push_back(x_axial);
   CellCoordinates cell = start;
   const CellBox& box = table_.box();
+  const CellCoordinates width = widths(box);
   ceres::TinySolver<ModuliMisfit> solver;
   solver.options.function_tolerance = 1e-9;
+  solver.options.max_num_iterations = 100;
   while (true) {
     misfit.set_free(free, cell);
-    Eigen::VectorXd x(Eigen::Index(free.size()));
-    for (std::size_t i = 0; i < free.size(); ++i) x(Eigen::Index(i)) = cell(free[i]);
+    Eigen::VectorXd x = misfit.parameters();
     const auto& summary = solver.Solve(misfit, &x);
-    for (std::size_t i = 0; i < free.size(); ++i) cell(free[i]) = x(Eigen::Index(i));
-    const auto held = std::erase_if(free, [&](int coordinate) {
-      if (coordinate != x_share && coordinate != x_ratio) return false;
-      const double inside = std::clamp(cell(coordinate), box.least(coordinate), box.greatest(coordinate));
-      return std::exchange(cell(coordinate), inside) != inside;
-    });
-    if (held == 0) return {cell, 2 * summary.final_cost};
+    cell = misfit.cell_at(x.data());
+    const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
+                          beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
+    const auto outside = [&](int coordinate) {
+      return coordinate == x_share || coordinate == x_ratio ? beyond(coordinate) : 0;
+    };
+    const auto farthest = std::ranges::max_element(free, {}, outside);
+    if (outside(*farthest) == 0) return {cell, 2 * summary.final_cost};
+    cell(*farthest) = held(*farthest);
+    free.erase(farthest);
   }
 }
 
@@ -209,7 +214,7 @@ CellCoordinates BulkCortexFit::start_for(const MeasuredShape& shape) const {
   start(x_radius) =
       shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
   start(x_progress) = std::log(std::max(progress, 1.01 * std::exp(box.least(x_progress))));
-  start(x_ratio) = options_.tension_ratio;
+  start(x_ratio) = options_.free_tension ? (box.least(x_ratio) + box.greatest(x_ratio)) / 2 : options_.tension_ratio;
   start(x_axial) = feature(mode_2);  // of a solid 3/4 of the ratio at first
   return start.cwiseMax(box.least).cwiseMin(box.greatest);
 }

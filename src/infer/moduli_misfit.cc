@@ -1,5 +1,6 @@
 #include "infer/moduli_misfit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,8 +22,12 @@ CellCoordinates widths(const CellBox& box) {
 }
 
 ModuliMisfit::ModuliMisfit(const CombinedInterpolation& table, MeasuredShape shape, std::span<const int> features,
-                           const AxialTension& tension)
-    : table_(table), shape_(std::move(shape)), features_(features), tension_(tension) {
+                           const AxialTension& tension, TensionIs tension_is)
+    : table_(table),
+      shape_(std::move(shape)),
+      features_(features),
+      tension_(tension),
+      follows_tension_(table.is_elongated() && tension_is == TensionIs::known) {
   const auto n = Eigen::Index(features.size());
   measured_.resize(n);
   Eigen::MatrixXd covariance(n, n);
@@ -34,26 +39,82 @@ ModuliMisfit::ModuliMisfit(const CombinedInterpolation& table, MeasuredShape sha
   whitening_ = whitening(covariance);
 }
 
+void ModuliMisfit::set_free(std::vector<int> free, const CellCoordinates& cell) {
+  free_ = std::move(free);
+  cell_ = cell;
+  last_progress_ = cell(x_progress);
+  if (follows_tension_) std::erase(free_, x_axial);
+}
+
+Eigen::VectorXd ModuliMisfit::parameters() const {
+  Eigen::VectorXd parameters(NumParameters());
+  for (std::size_t i = 0; i < free_.size(); ++i) parameters(Eigen::Index(i)) = cell_(free_[i]);
+  const auto progress = std::ranges::find(free_, x_progress);
+  if (table_.is_elongated() && progress != free_.end())
+    parameters(progress - free_.begin()) = table_.at(cell_).value(log_stiffness_row);
+  return parameters;
+}
+
+ModuliMisfit::Place ModuliMisfit::place(const double* parameters) const {
+  Place place{cell_, {}, Eigen::MatrixXd::Zero(coordinate_count, NumParameters())};
+  Eigen::Index progress = -1;
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    place.by_parameters(free_[i], Eigen::Index(i)) = 1;
+    if (free_[i] == x_progress) progress = Eigen::Index(i);
+    place.cell(free_[i]) = parameters[i];
+  }
+  if (!table_.is_elongated() || progress < 0) {
+    place.state = table_.at(place.cell);
+    return place;
+  }
+  const double log_stiffness = parameters[progress];
+  if (follows_tension_) {
+    place.cell(x_axial) = 1e-3 * tension_.value_Pa * std::exp(-log_stiffness);
+    place.by_parameters(x_axial, progress) = -place.cell(x_axial);
+  }
+  place.cell(x_progress) = last_progress_;
+  place.state = meet_stiffness(log_stiffness, place.cell);
+  last_progress_ = place.cell(x_progress);
+  // d ln S = gradient . d cell, solved for the progress.
+  const Eigen::RowVectorXd gradient = place.state.gradient.row(log_stiffness_row);
+  place.by_parameters(x_progress, progress) = 0;
+  Eigen::RowVectorXd left = -gradient * place.by_parameters;
+  left(progress) += 1;
+  place.by_parameters.row(x_progress) = left / gradient(x_progress);
+  return place;
+}
+
+// By Newton's method: the stiffness falls nearly in proportion to one over the progress.
+CombinedState ModuliMisfit::meet_stiffness(double log_stiffness, CellCoordinates& cell) const {
+  constexpr int most_steps = 20;
+  constexpr double tolerance = 1e-9, flattest = -0.3;
+  for (int step = 0;; ++step) {
+    const CombinedState state = table_.at(cell);
+    const double slope = std::min(state.gradient(log_stiffness_row, x_progress), flattest);
+    const double change = (log_stiffness - state.value(log_stiffness_row)) / slope;
+    if (std::abs(change) < tolerance || step == most_steps) return state;
+    cell(x_progress) += change;
+  }
+}
+
 bool ModuliMisfit::operator()(const double* parameters, double* residuals, double* jacobian) const {
-  CellCoordinates cell = cell_;
-  for (std::size_t i = 0; i < free_.size(); ++i) cell(free_[i]) = parameters[i];
+  const Place at = place(parameters);
   Jacobian all;
-  Eigen::Map<Eigen::VectorXd>(residuals, NumResiduals()) = evaluate(cell, all);
-  for (std::size_t i = 0; jacobian && i < free_.size(); ++i)
-    Eigen::Map<Eigen::VectorXd>(jacobian + i * std::size_t(NumResiduals()), NumResiduals()) = all.col(free_[i]);
+  Eigen::Map<Eigen::VectorXd>(residuals, NumResiduals()) = evaluate(at.cell, at.state, all);
+  if (jacobian) Eigen::Map<Eigen::MatrixXd>(jacobian, NumResiduals(), NumParameters()) = all * at.by_parameters;
   return true;
 }
 
-Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, Jacobian& jacobian) const {
+Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, const CombinedState& state,
+                                       Jacobian& jacobian) const {
   const auto n = Eigen::Index(features_.size());
   const CellBox& box = table_.box();
   const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest), beyond = cell - held;
-  const CombinedState state = table_.at(held);
   Eigen::VectorXd residual = Eigen::VectorXd::Zero(NumResiduals());
   jacobian = Jacobian::Zero(NumResiduals(), coordinate_count);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto [value, gradient] = feature(features_[std::size_t(i)], held, state);
-    residual(i) = value + gradient.dot(beyond) - measured_(i);
+    const auto [value, gradient] = feature(features_[std::size_t(i)], cell, state);
+    residual(i) = value - measured_(i);
     jacobian.row(i) = gradient.transpose();
   }
   residual.head(n) = whitening_ * residual.head(n);
@@ -65,7 +126,7 @@ Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, Jacobian& ja
   }
   if (!table_.is_elongated()) return residual;
   const CellCoordinates by_cell = state.gradient.row(log_stiffness_row).transpose();
-  const double stiffness_Pa = 1e3 * std::exp(state.value(log_stiffness_row) + by_cell.dot(beyond));
+  const double stiffness_Pa = 1e3 * std::exp(state.value(log_stiffness_row));
   const Eigen::Index last = n + coordinate_count;
   residual(last) = (cell(x_axial) * stiffness_Pa - tension_.value_Pa) / tension_.error_Pa;
   jacobian.row(last) =
@@ -75,7 +136,7 @@ Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, Jacobian& ja
 
 Eigen::Matrix<double, coordinate_count, coordinate_count> ModuliMisfit::information(const CellCoordinates& cell) const {
   Jacobian all;
-  evaluate(cell, all);
+  evaluate(cell, table_.at(cell), all);
   const Jacobian features = all.topRows(Eigen::Index(features_.size())), tension = all.bottomRows(1);
   return features.transpose() * features + tension.transpose() * tension;
 }

@@ -13,35 +13,48 @@ namespace rheocyte {
 CellCoordinates widths(const CellBox& box);
 
 /// Residuals of the chosen features, over the free coordinates, in the form that ceres::TinySolver wants. Behind them
-/// stand what it costs to leave the table, and, where cells are elongated, what is known of the tension.
+/// stand what it costs to leave the table, and, where cells are elongated, what is known of the tension. There ln of
+/// the stiffness stands for the progress: the tension over it then is a known number, where in the coordinates of the
+/// table a known tension is a bent valley, so narrow that no minimiser gets along it.
 class ModuliMisfit {
  public:
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count>;
 
+  enum class TensionIs { known, fitted };
+
   /// Shape and tension are those in the table's channel and flow. Table and features must outlive it.
   ModuliMisfit(const CombinedInterpolation& table, MeasuredShape shape, std::span<const int> features,
-               const AxialTension& tension);
+               const AxialTension& tension, TensionIs tension_is);
 
   bool is_usable() const { return measured_.allFinite() && whitening_.size() > 0; }
   const MeasuredShape& shape() const { return shape_; }
   int NumResiduals() const { return int(features_.size()) + coordinate_count + 1; }
   int NumParameters() const { return int(free_.size()); }
 
-  /// The coordinates that are fitted; the others stay as in `cell`.
-  void set_free(std::vector<int> free, const CellCoordinates& cell) {
-    free_ = std::move(free);
-    cell_ = cell;
-  }
+  /// The coordinates that are fitted; the others stay as in `cell`, and the axial ratio follows a known tension.
+  void set_free(std::vector<int> free, const CellCoordinates& cell);
+  /// Those of the cell.
+  Eigen::VectorXd parameters() const;
+  CellCoordinates cell_at(const double* parameters) const { return place(parameters).cell; }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const;
 
-  Eigen::VectorXd evaluate(const CellCoordinates& cell, Jacobian& jacobian) const;
   /// What the features and the tension tell of a cell, without the fence: J^T J.
   Eigen::Matrix<double, coordinate_count, coordinate_count> information(const CellCoordinates& cell) const;
 
  private:
+  struct Place {
+    CellCoordinates cell;
+    CombinedState state;
+    Eigen::Matrix<double, coordinate_count, Eigen::Dynamic> by_parameters;
+  };
+  Place place(const double* parameters) const;
+  /// Moves the progress there; the state.
+  CombinedState meet_stiffness(double log_stiffness, CellCoordinates& cell) const;
+  Eigen::VectorXd evaluate(const CellCoordinates& cell, const CombinedState& state, Jacobian& jacobian) const;
+
   struct Feature {
     double value;
     CellCoordinates gradient;
@@ -52,10 +65,12 @@ class ModuliMisfit {
   MeasuredShape shape_;
   std::span<const int> features_;
   AxialTension tension_;
+  bool follows_tension_;
   Eigen::VectorXd measured_;
   Eigen::MatrixXd whitening_;
   std::vector<int> free_;
   CellCoordinates cell_ = CellCoordinates::Zero();
+  mutable double last_progress_ = 0;  ///< where the next search begins
 };
 
 }  // namespace rheocyte

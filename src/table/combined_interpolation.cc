@@ -4,47 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <set>
 #include <span>
 
 #include "case/user_error.h"
 #include "numeric/hermite.h"
-#include "numeric/lagrange.h"
 
 namespace rheocyte {
 
 namespace {
 
-/// Where a dent appears, the hull's features bend at another deformation in each branch: higher degrees do worse.
-constexpr int max_combined_stencil = 4;
+/// Beyond its end a branch goes straight on and counts less and less, over so much of ln of the progress.
+constexpr double fading = 0.2;
+constexpr double no_branch = -100;  ///< its end
 
-/// The interval of ascending nodes that holds x, or the nearest one.
-int interval_of(std::span<const double> nodes, double x) {
-  const auto above = std::ranges::upper_bound(nodes, x);
-  return std::clamp(int(above - nodes.begin()) - 1, 0, std::max(int(nodes.size()) - 2, 0));
+/// What a branch counts that ends there.
+CellFunction part_of(const CellFunction& end, double progress) {
+  const double place = std::clamp((end.value - progress) / fading + 1, 0., 1.), t = 1 - place;
+  const double slope = 6 * place * t / fading;
+  return {place * place * (3 - 2 * place), slope * (end.gradient - CellCoordinates::Unit(x_progress))};
 }
 
-/// Neighbours of x, as many on both sides as there are, without gaps; the two next ones in any case.
-struct Window {
-  int first, end;
-};
-
-Window window_of(std::span<const double> nodes, double x, const std::function<bool(int)>& is_usable) {
-  const int below = interval_of(nodes, x), count = int(nodes.size());
-  Window window{below, std::min(below + 2, count)};
-  for (bool down = true, up = true; (down || up) && window.end - window.first < max_combined_stencil;) {
-    down = down && window.first > 0 && is_usable(window.first - 1);
-    if (down) --window.first;
-    up = up && window.end < count && is_usable(window.end);
-    if (up && window.end - window.first < max_combined_stencil) ++window.end;
-  }
-  return window;
-}
-
-std::span<const double> part(std::span<const double> nodes, const Window& window) {
-  return nodes.subspan(std::size_t(window.first), std::size_t(window.end - window.first));
+/// Linearly between two functions, at the cell's place between the nodes.
+template <class Function>
+CellFunction between_nodes(std::span<const double> nodes, const CellCoordinates& cell, int coordinate,
+                           const Function& f) {
+  const int below = interval_of(nodes, cell(coordinate));
+  if (nodes.size() == 1) return f(below);
+  const double low = nodes[std::size_t(below)], width = nodes[std::size_t(below) + 1] - low;
+  const double inside = std::clamp((cell(coordinate) - low) / width, 0., 1.);
+  const CellFunction share{inside, CellCoordinates::Unit(coordinate) / width};
+  return share.complement() * f(below) + share * f(below + 1);
 }
 
 template <class Value>
@@ -62,10 +53,9 @@ struct CombinedInterpolation::Sum {
   Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
       Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
 
-  void add(const Sum& term, double weight, double weight_slope, int along) {
-    value += weight * term.value;
-    gradient += weight * term.gradient;
-    gradient.col(along) += weight_slope * term.value;
+  void add(const Sum& term, const CellFunction& weight) {
+    value += weight.value * term.value;
+    gradient += weight.value * term.gradient + term.value * weight.gradient.transpose();
   }
 };
 
@@ -126,7 +116,7 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
   const auto found = std::ranges::find_if(table.branches, is_it);
   if (found == table.branches.end()) return {};
   Curve curve = curve_of(*found);
-  curve.branch = int(found - table.branches.begin());
+  if (curve.place.size() > 1) curve.branch = int(found - table.branches.begin());
   return curve;
 }
 
@@ -145,7 +135,7 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
       for (const double share : shares_)
         for (const double radius : radii_) {
           const Curve& curve = curves_.emplace_back(curve_at(table, {radius, share, ratio, axial}));
-          if (curve.place.empty()) continue;
+          if (curve.branch < 0) continue;
           least = std::max(least, curve.place.front());
           greatest = std::max(greatest, curve.place.back());
         }
@@ -153,8 +143,26 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
     throw UserError(
         fmt::format("{}: no branch of the combined table has cells that deform the more the softer they are.",
                     table.spec.identifier));
+  fill_gaps();
   box_.least << log_radii_.front(), shares_.front(), least, ratios_.front(), axial_ratios_.front();
   box_.greatest << log_radii_.back(), shares_.back(), greatest, ratios_.back(), axial_ratios_.back();
+}
+
+// What is scaled hardly varies from branch to branch: where one is missing, which is outside the table, its neighbour
+// in radius, else in share, leads back in.
+void CombinedInterpolation::fill_gaps() {
+  const auto radii = radii_.size(), sheet = radii * shares_.size();
+  const auto fill = [&](std::size_t first, std::size_t count, std::size_t stride) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Curve& gap = curves_[first + i * stride];
+      for (std::size_t far = 1; far < count && gap.place.size() < 2; ++far)
+        for (const std::size_t k : {i - far, i + far})
+          if (k < count && curves_[first + k * stride].branch >= 0) gap = curves_[first + k * stride], gap.branch = -1;
+    }
+  };
+  for (std::size_t row = 0; row < curves_.size(); row += radii) fill(row, radii, 1);
+  for (std::size_t column = 0; column < curves_.size(); ++column)
+    if (column % sheet < radii) fill(column, shares_.size(), radii);
 }
 
 const CombinedInterpolation::Curve& CombinedInterpolation::curve(int sheet, int share, int radius) const {
@@ -182,7 +190,8 @@ bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell
 // Beyond its ends straight on.
 CombinedInterpolation::Sum CombinedInterpolation::along(const Curve& branch, double progress) {
   Sum term;
-  if (branch.place.size() < 2 || !branch.reaches(progress)) {
+  if (branch.place.empty()) return term;
+  if (progress < branch.place.front() || progress > branch.place.back()) {
     const bool soft = progress > branch.place.front();
     const auto end = soft ? branch.place.size() - 1 : 0;
     term.value = branch.value[end] + (progress - branch.place[end]) * branch.slope[end];
@@ -198,40 +207,57 @@ CombinedInterpolation::Sum CombinedInterpolation::along(const Curve& branch, dou
   return term;
 }
 
+CellFunction CombinedInterpolation::end(const Curve& branch) const {
+  return {branch.branch >= 0 ? branch.place.back() : no_branch};
+}
+
+CellFunction CombinedInterpolation::end(int sheet, int share, const CellCoordinates& cell) const {
+  return between_nodes(log_radii_, cell, x_radius, [&](int i) { return end(curve(sheet, share, i)); });
+}
+
+CellFunction CombinedInterpolation::sheet_end(int sheet, const CellCoordinates& cell) const {
+  return between_nodes(shares_, cell, x_share, [&](int j) { return end(sheet, j, cell); });
+}
+
+CellFunction CombinedInterpolation::axial_end(int axial, const CellCoordinates& cell) const {
+  return between_nodes(ratios_, cell, x_ratio, [&](int i) { return sheet_end(sheet_of(axial, i), cell); });
+}
+
+std::vector<NodeWeight> CombinedInterpolation::radius_weights(int sheet, int share, const CellCoordinates& cell) const {
+  return axis_weights(log_radii_, cell, x_radius,
+                      [&](int i) { return part_of(end(curve(sheet, share, i)), cell(x_progress)); });
+}
+
+std::vector<NodeWeight> CombinedInterpolation::share_weights(int sheet, const CellCoordinates& cell) const {
+  return axis_weights(shares_, cell, x_share, [&](int j) { return part_of(end(sheet, j, cell), cell(x_progress)); });
+}
+
+std::vector<NodeWeight> CombinedInterpolation::ratio_weights(int axial, const CellCoordinates& cell) const {
+  return axis_weights(ratios_, cell, x_ratio,
+                      [&](int i) { return part_of(sheet_end(sheet_of(axial, i), cell), cell(x_progress)); });
+}
+
+std::vector<NodeWeight> CombinedInterpolation::axial_weights(const CellCoordinates& cell) const {
+  return axis_weights(axial_ratios_, cell, x_axial,
+                      [&](int i) { return part_of(axial_end(i, cell), cell(x_progress)); });
+}
+
 CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int share, const CellCoordinates& cell) const {
-  const double progress = cell(x_progress), x = cell(x_radius);
-  const auto window = window_of(log_radii_, x, [&](int i) { return curve(sheet, share, i).reaches(progress); });
-  const auto weights = lagrange_weights(part(log_radii_, window), x);
   Sum sum;
-  for (int i = window.first; i < window.end; ++i) {
-    const Curve& branch = curve(sheet, share, i);
-    if (branch.place.empty()) continue;
-    const auto w = std::size_t(i - window.first);
-    sum.add(along(branch, progress), weights.value[w], weights.slope[w], x_radius);
-  }
+  for (const auto& [i, weight] : radius_weights(sheet, share, cell))
+    sum.add(along(curve(sheet, share, i), cell(x_progress)), weight);
   return sum;
 }
 
 CombinedInterpolation::Sum CombinedInterpolation::over_shares(int sheet, const CellCoordinates& cell) const {
-  const double share = cell(x_share);
-  const auto window = window_of(shares_, share, [&](int j) { return reaches(sheet, j, cell); });
-  const auto weights = lagrange_weights(part(shares_, window), share);
   Sum sum;
-  for (int j = window.first; j < window.end; ++j) {
-    const auto w = std::size_t(j - window.first);
-    sum.add(over_radii(sheet, j, cell), weights.value[w], weights.slope[w], x_share);
-  }
+  for (const auto& [j, weight] : share_weights(sheet, cell)) sum.add(over_radii(sheet, j, cell), weight);
   return sum;
 }
 
 CombinedInterpolation::Sum CombinedInterpolation::over_ratios(int axial, const CellCoordinates& cell) const {
-  const auto window = window_of(ratios_, cell(x_ratio), [&](int i) { return sheet_reaches(sheet_of(axial, i), cell); });
-  const auto weights = lagrange_weights(part(ratios_, window), cell(x_ratio));
   Sum sum;
-  for (int i = window.first; i < window.end; ++i) {
-    const auto w = std::size_t(i - window.first);
-    sum.add(over_shares(sheet_of(axial, i), cell), weights.value[w], weights.slope[w], x_ratio);
-  }
+  for (const auto& [i, weight] : ratio_weights(axial, cell)) sum.add(over_shares(sheet_of(axial, i), cell), weight);
   return sum;
 }
 
@@ -243,48 +269,27 @@ bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
 
 std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& cell) const {
   if (!is_inside(cell)) return {};
-  const auto axial = window_of(axial_ratios_, cell(x_axial), [&](int i) { return axial_reaches(i, cell); });
-  const auto of_axial = lagrange_weights(part(axial_ratios_, axial), cell(x_axial));
   std::vector<BranchWeight> all;
-  for (int i = axial.first; i < axial.end; ++i) {
-    const auto ratios = window_of(ratios_, cell(x_ratio), [&](int k) { return sheet_reaches(sheet_of(i, k), cell); });
-    const auto of_ratios = lagrange_weights(part(ratios_, ratios), cell(x_ratio));
-    for (int k = ratios.first; k < ratios.end; ++k)
-      add_weights(sheet_of(i, k),
-                  of_axial.value[std::size_t(i - axial.first)] * of_ratios.value[std::size_t(k - ratios.first)], cell,
-                  all);
-  }
+  for (const auto& [axial, of_axial] : axial_weights(cell))
+    for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell))
+      add_weights(sheet_of(axial, ratio), of_axial.value * of_ratio.value, cell, all);
   return all;
 }
 
 void CombinedInterpolation::add_weights(int sheet, double factor, const CellCoordinates& cell,
                                         std::vector<BranchWeight>& all) const {
-  const double progress = cell(x_progress), x = cell(x_radius), share = cell(x_share);
-  const auto sheets = window_of(shares_, share, [&](int j) { return reaches(sheet, j, cell); });
-  const auto of_shares = lagrange_weights(part(shares_, sheets), share);
-  for (int j = sheets.first; j < sheets.end; ++j) {
-    const auto radii = window_of(log_radii_, x, [&](int k) { return curve(sheet, j, k).reaches(progress); });
-    const auto of_radii = lagrange_weights(part(log_radii_, radii), x);
-    for (int k = radii.first; k < radii.end; ++k) {
-      const Curve& branch = curve(sheet, j, k);
+  for (const auto& [share, of_share] : share_weights(sheet, cell))
+    for (const auto& [radius, of_radius] : radius_weights(sheet, share, cell)) {
+      const Curve& branch = curve(sheet, share, radius);
       const double log_stiffness =
-          along(branch, progress).value(log_stiffness_row) - growth(log_stiffness_row) * progress;
-      all.push_back(
-          {branch.branch,
-           factor * of_shares.value[std::size_t(j - sheets.first)] * of_radii.value[std::size_t(k - radii.first)],
-           std::exp(log_stiffness)});
+          along(branch, cell(x_progress)).value(log_stiffness_row) - growth(log_stiffness_row) * cell(x_progress);
+      all.push_back({branch.branch, factor * of_share.value * of_radius.value, std::exp(log_stiffness)});
     }
-  }
 }
 
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
-  const auto axial = window_of(axial_ratios_, cell(x_axial), [&](int i) { return axial_reaches(i, cell); });
-  const auto weights = lagrange_weights(part(axial_ratios_, axial), cell(x_axial));
   Sum sum;
-  for (int i = axial.first; i < axial.end; ++i) {
-    const auto w = std::size_t(i - axial.first);
-    sum.add(over_ratios(i, cell), weights.value[w], weights.slope[w], x_axial);
-  }
+  for (const auto& [i, weight] : axial_weights(cell)) sum.add(over_ratios(i, cell), weight);
   // Back from what hardly varies to what is asked for.
   CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), is_inside(cell)};
   Eigen::RowVector<double, coordinate_count> by_flow = sum.gradient.row(log_flow_row);

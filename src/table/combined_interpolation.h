@@ -3,20 +3,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "table/axis_weights.h"
+#include "table/cell_coordinates.h"
 #include "table/combined_table.h"
 
 namespace rheocyte {
-
-/// The coordinates of a cell. One of them is its progress along a branch. It is the deformation: all branches reach the
-/// same deformations and turn back at none, and states of equal deformation change least from branch to branch. Of a
-/// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have if
-/// this grew in proportion to 1 / S all along the branch: where the tension is as great as S it does not.
-inline constexpr int x_radius = 0,                ///< ln(r0 / um)
-    x_share = 1,                                  ///< of the cortex in S
-    x_progress = 2,                               ///< its logarithm
-    x_ratio = 3,                                  ///< tension of the cortex over its modulus
-    x_axial = 4, coordinate_count = x_axial + 1;  ///< axial tension over S
-using CellCoordinates = Eigen::Matrix<double, coordinate_count, 1>;
 
 /// Rows of what is interpolated: ln(S / kPa), ln(area / um2), Lambda1 / Lambda2, the modes and the deformation.
 inline constexpr int log_stiffness_row = 0, log_area_row = 1, moment_ratio_row = 2, first_mode_row = 3,
@@ -51,7 +42,8 @@ struct BranchWeight {
 };
 
 /// Cubics along the branches in ln of the progress, of quantities that hardly vary there; between the branches
-/// polynomials through up to four radii, four shares, four tensions of the cortex and four axial ratios.
+/// polynomials through up to four radii, four shares, four tensions of the cortex and four axial ratios. Where a branch
+/// ends it goes straight on, and farther and farther beyond its end it counts less and less: nothing jumps there.
 class CombinedInterpolation {
  public:
   /// At least two radii and two shares, the same radii in all sheets; UserError otherwise.
@@ -74,11 +66,11 @@ class CombinedInterpolation {
   using Row = Eigen::Matrix<double, inner_rows, 1>;
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
-    int branch = -1;  ///< of the table; -1: none
+    int branch = -1;  ///< of the table; -1: none, and the curve is that of the nearest radius or share that has one
     std::vector<double> place;
     std::vector<Row> value, slope;
     bool reaches(double log_progress) const {
-      return !place.empty() && log_progress >= place.front() && log_progress <= place.back();
+      return branch >= 0 && log_progress >= place.front() && log_progress <= place.back();
     }
   };
   struct Sum;
@@ -88,13 +80,24 @@ class CombinedInterpolation {
   double growth(int row) const;
   Curve curve_of(const CombinedBranch& branch) const;
   Curve curve_at(const CombinedTable& table, const SweepPoint& place) const;
+  void fill_gaps();
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
   const Curve& curve(int sheet, int share, int radius) const;
-  Sum over_ratios(int axial, const CellCoordinates& cell) const;
-  Sum over_shares(int sheet, const CellCoordinates& cell) const;
   static Sum along(const Curve& branch, double progress);
   Sum over_radii(int sheet, int share, const CellCoordinates& cell) const;
+  Sum over_shares(int sheet, const CellCoordinates& cell) const;
+  Sum over_ratios(int axial, const CellCoordinates& cell) const;
+  /// Of the branches on an axis at a cell. What one of them counts falls smoothly to nothing beyond its end.
+  std::vector<NodeWeight> radius_weights(int sheet, int share, const CellCoordinates& cell) const;
+  std::vector<NodeWeight> share_weights(int sheet, const CellCoordinates& cell) const;
+  std::vector<NodeWeight> ratio_weights(int axial, const CellCoordinates& cell) const;
+  std::vector<NodeWeight> axial_weights(const CellCoordinates& cell) const;
+  /// The progress at which branches end: of one, and linearly between two radii, then two shares, then two tensions.
+  CellFunction end(const Curve& branch) const;
+  CellFunction end(int sheet, int share, const CellCoordinates& cell) const;
+  CellFunction sheet_end(int sheet, const CellCoordinates& cell) const;
+  CellFunction axial_end(int axial, const CellCoordinates& cell) const;
   void add_weights(int sheet, double factor, const CellCoordinates& cell, std::vector<BranchWeight>& all) const;
   bool reaches(int sheet, int share, const CellCoordinates& cell) const;
   /// With the two shares beside the cell's; with the two tensions of the cortex, too.
