@@ -47,18 +47,6 @@ std::vector<double> distinct(const CombinedTable& table, Value value) {
 
 }  // namespace
 
-/// A weighted sum of states with its derivatives.
-struct CombinedInterpolation::Sum {
-  Row value = Row::Zero();
-  Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
-      Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
-
-  void add(const Sum& term, const CellFunction& weight) {
-    value += weight.value * term.value;
-    gradient += weight.value * term.gradient + term.value * weight.gradient.transpose();
-  }
-};
-
 // Stiffness, area and modes change with the square root of d to first order. With a tension along the flow the even
 // modes are those that it alone makes, and the flow adds odd ones.
 double CombinedInterpolation::growth(int row) const {
@@ -188,23 +176,17 @@ bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell
 }
 
 // Beyond its ends straight on.
-CombinedInterpolation::Sum CombinedInterpolation::along(const Curve& branch, double progress) {
-  Sum term;
-  if (branch.place.empty()) return term;
+std::pair<CombinedInterpolation::Row, CombinedInterpolation::Row> CombinedInterpolation::along(const Curve& branch,
+                                                                                               double progress) {
   if (progress < branch.place.front() || progress > branch.place.back()) {
-    const bool soft = progress > branch.place.front();
-    const auto end = soft ? branch.place.size() - 1 : 0;
-    term.value = branch.value[end] + (progress - branch.place[end]) * branch.slope[end];
-    term.gradient.col(x_progress) = branch.slope[end];
-    return term;
+    const auto end = progress > branch.place.front() ? branch.place.size() - 1 : 0;
+    return {branch.value[end] + (progress - branch.place[end]) * branch.slope[end], branch.slope[end]};
   }
   const auto k = std::size_t(interval_of(branch.place, progress));
   const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
   const Row &a = branch.value[k], &b = branch.value[k + 1];
   const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
-  term.value = hermite(t)(a, b, slope_a, slope_b);
-  term.gradient.col(x_progress) = hermite_slope(t)(a, b, slope_a, slope_b) / h;
-  return term;
+  return {hermite(t)(a, b, slope_a, slope_b), hermite_slope(t)(a, b, slope_a, slope_b) / h};
 }
 
 CellFunction CombinedInterpolation::end(const Curve& branch) const {
@@ -242,23 +224,21 @@ std::vector<NodeWeight> CombinedInterpolation::axial_weights(const CellCoordinat
                       [&](int i) { return part_of(axial_end(i, cell), cell(x_progress)); });
 }
 
-CombinedInterpolation::Sum CombinedInterpolation::over_radii(int sheet, int share, const CellCoordinates& cell) const {
-  Sum sum;
-  for (const auto& [i, weight] : radius_weights(sheet, share, cell))
-    sum.add(along(curve(sheet, share, i), cell(x_progress)), weight);
-  return sum;
-}
-
-CombinedInterpolation::Sum CombinedInterpolation::over_shares(int sheet, const CellCoordinates& cell) const {
-  Sum sum;
-  for (const auto& [j, weight] : share_weights(sheet, cell)) sum.add(over_radii(sheet, j, cell), weight);
-  return sum;
-}
-
-CombinedInterpolation::Sum CombinedInterpolation::over_ratios(int axial, const CellCoordinates& cell) const {
-  Sum sum;
-  for (const auto& [i, weight] : ratio_weights(axial, cell)) sum.add(over_shares(sheet_of(axial, i), cell), weight);
-  return sum;
+std::vector<CombinedInterpolation::CurveWeight> CombinedInterpolation::curve_weights(
+    const CellCoordinates& cell) const {
+  std::vector<CurveWeight> all;
+  for (const auto& [axial, of_axial] : axial_weights(cell))
+    for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell)) {
+      const int sheet = sheet_of(axial, ratio);
+      const CellFunction of_sheet = of_axial * of_ratio;
+      for (const auto& [share, of_share] : share_weights(sheet, cell)) {
+        const CellFunction of_row = of_sheet * of_share;
+        for (const auto& [radius, of_radius] : radius_weights(sheet, share, cell))
+          if (const Curve& found = curve(sheet, share, radius); !found.place.empty())
+            all.push_back({&found, of_row * of_radius});
+      }
+    }
+  return all;
 }
 
 bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
@@ -270,31 +250,30 @@ bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
 std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& cell) const {
   if (!is_inside(cell)) return {};
   std::vector<BranchWeight> all;
-  for (const auto& [axial, of_axial] : axial_weights(cell))
-    for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell))
-      add_weights(sheet_of(axial, ratio), of_axial.value * of_ratio.value, cell, all);
+  const double progress = cell(x_progress);
+  for (const auto& [curve, weight] : curve_weights(cell)) {
+    const Row value = along(*curve, progress).first;
+    all.push_back(
+        {curve->branch, weight.value, std::exp(value(log_stiffness_row) - growth(log_stiffness_row) * progress)});
+  }
   return all;
 }
 
-void CombinedInterpolation::add_weights(int sheet, double factor, const CellCoordinates& cell,
-                                        std::vector<BranchWeight>& all) const {
-  for (const auto& [share, of_share] : share_weights(sheet, cell))
-    for (const auto& [radius, of_radius] : radius_weights(sheet, share, cell)) {
-      const Curve& branch = curve(sheet, share, radius);
-      const double log_stiffness =
-          along(branch, cell(x_progress)).value(log_stiffness_row) - growth(log_stiffness_row) * cell(x_progress);
-      all.push_back({branch.branch, factor * of_share.value * of_radius.value, std::exp(log_stiffness)});
-    }
-}
-
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
-  Sum sum;
-  for (const auto& [i, weight] : axial_weights(cell)) sum.add(over_ratios(i, cell), weight);
+  Row sum = Row::Zero();
+  Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
+      Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
+  for (const auto& [curve, weight] : curve_weights(cell)) {
+    const auto [value, slope] = along(*curve, cell(x_progress));
+    sum += weight.value * value;
+    gradient += value * weight.gradient.transpose();
+    gradient.col(x_progress) += weight.value * slope;
+  }
   // Back from what hardly varies to what is asked for.
-  CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), is_inside(cell)};
-  Eigen::RowVector<double, coordinate_count> by_flow = sum.gradient.row(log_flow_row);
+  CombinedState state{sum.head<row_count>(), gradient.topRows<row_count>(), is_inside(cell)};
+  Eigen::RowVector<double, coordinate_count> by_flow = gradient.row(log_flow_row);
   by_flow(x_progress) += 1;
-  const double log_flow = sum.value(log_flow_row) + cell(x_progress);
+  const double log_flow = sum(log_flow_row) + cell(x_progress);
   for (int row = log_area_row; row < row_count; ++row) {
     const double power = growth(row), unit = std::exp(power * log_flow);
     state.value(row) *= unit;

@@ -1,6 +1,7 @@
 // Stiffness and shape of a combined cell anywhere between the branches of its table, with exact derivatives.
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "table/axis_weights.h"
@@ -73,7 +74,10 @@ class CombinedInterpolation {
       return branch >= 0 && log_progress >= place.front() && log_progress <= place.back();
     }
   };
-  struct Sum;
+  struct CurveWeight {
+    const Curve* curve;
+    CellFunction weight;
+  };
 
   /// The power of what the flow makes of the cell with which a row grows at first; what is left varies little. Of the
   /// stiffness, that of one over the progress.
@@ -84,10 +88,10 @@ class CombinedInterpolation {
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
   const Curve& curve(int sheet, int share, int radius) const;
-  static Sum along(const Curve& branch, double progress);
-  Sum over_radii(int sheet, int share, const CellCoordinates& cell) const;
-  Sum over_shares(int sheet, const CellCoordinates& cell) const;
-  Sum over_ratios(int axial, const CellCoordinates& cell) const;
+  /// Value, and slope over ln of the progress.
+  static std::pair<Row, Row> along(const Curve& branch, double progress);
+  /// All curves of which a cell is a weighted sum.
+  std::vector<CurveWeight> curve_weights(const CellCoordinates& cell) const;
   /// Of the branches on an axis at a cell. What one of them counts falls smoothly to nothing beyond its end.
   std::vector<NodeWeight> radius_weights(int sheet, int share, const CellCoordinates& cell) const;
   std::vector<NodeWeight> share_weights(int sheet, const CellCoordinates& cell) const;
@@ -98,7 +102,6 @@ class CombinedInterpolation {
   CellFunction end(int sheet, int share, const CellCoordinates& cell) const;
   CellFunction sheet_end(int sheet, const CellCoordinates& cell) const;
   CellFunction axial_end(int axial, const CellCoordinates& cell) const;
-  void add_weights(int sheet, double factor, const CellCoordinates& cell, std::vector<BranchWeight>& all) const;
   bool reaches(int sheet, int share, const CellCoordinates& cell) const;
   /// With the two shares beside the cell's; with the two tensions of the cortex, too.
   bool sheet_reaches(int sheet, const CellCoordinates& cell) const;

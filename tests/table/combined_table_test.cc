@@ -147,6 +147,34 @@ TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
   EXPECT_TRUE(between_.weights(between_.box().greatest + CellCoordinates::Ones()).empty());
 }
 
+TEST_F(Interpolation, NothingJumpsWhereABranchEnds) {
+  // Some branches end early, one is missing. Along straight lines through the table no value changes from step to step
+  // by more than its slopes say.
+  CombinedTable table = whole_combined_table();
+  std::erase_if(table.branches,
+                [](const CombinedBranch& b) { return b.place.radius_um == 7.0 && b.place.cortex_share == 0.5; });
+  for (std::size_t i = 0; i < table.branches.size(); i += 5) {
+    CombinedBranch& branch = table.branches[i];
+    const int samples = branch.samples() - 4;
+    branch.stiffness_kPa.resize(std::size_t(samples));
+    branch.value.conservativeResize(samples, Eigen::NoChange);
+    branch.slope.conservativeResize(samples, Eigen::NoChange);
+  }
+  const CombinedInterpolation shortened(table);
+  for (int trial = 0; trial < 30; ++trial) {
+    const CellCoordinates start = random_cell(), way = random_cell() - start;
+    constexpr int steps = 3000;
+    CombinedState last = shortened.at(start);
+    for (int i = 1; i <= steps; ++i) {
+      const CombinedState state = shortened.at(start + double(i) / steps * way);
+      const auto change = (state.value - last.value).cwiseAbs().eval();
+      const auto expected = ((state.gradient + last.gradient) / 2 * way / steps).cwiseAbs().eval();
+      EXPECT_LT((change - expected).maxCoeff(), 2e-5) << trial << ' ' << i;
+      last = state;
+    }
+  }
+}
+
 TEST_F(Interpolation, ACellBeyondTheBranchesIsSaid) {
   // Softer than all, larger than all; the values go on nevertheless.
   CellCoordinates cell = random_cell();
