@@ -2,6 +2,10 @@
 // Once as a hand drags it (3 % of Young's modulus a move, to and fro), once in jumps of 17 to 28 %, which the solver mostly
 // begins from the sphere.
 //     RHEOCYTE=build/rheocyte npm run bench
+//     PAGE=build/rheocyte.html node page/bench/slider.mjs      # the view as one file
+import { resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { openPage } from '../tests/browser.mjs';
 import { openCell, settled } from '../tests/cell_page.mjs';
 
 const moves = Number(process.env.MOVES ?? 200);
@@ -34,7 +38,12 @@ async function measure({ count, drags }) {
   return times;
 }
 
-const { page, end } = await openCell();
+const openFile = (file) =>
+  openPage({ stop: () => undefined }, {}, async (page) => {
+    await page.goto(pathToFileURL(resolve(file)).href);
+    await settled(page);
+  });
+const { page, end } = await (process.env.PAGE ? openFile(process.env.PAGE) : openCell());
 const session = await page.context().newCDPSession(page);
 await session.send('Performance.enable', { timeDomain: 'threadTicks' });
 const processorTime = async () => {

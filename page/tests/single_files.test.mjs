@@ -53,8 +53,8 @@ const readByDclab = `
 import json, sys
 import dclab, numpy
 with dclab.new_dataset(sys.argv[1]) as ds:
-    print(json.dumps({"events": len(ds), "stored": "emodulus_stored" in ds.features_innate,
-                      "median": float(numpy.nanmedian(ds["emodulus_stored"])), "area": float(numpy.median(ds["area_um"]))}))
+    print(json.dumps({"events": len(ds), "stored": "emodulus" in ds.features_innate,
+                      "median": float(numpy.nanmedian(ds["emodulus"])), "area": float(numpy.median(ds["area_um"]))}))
 `;
 test('dclab opens a companion of the page, with its moduli and the columns of its recording', { skip: skip || noDclab() }, async () => {
   const recording = join(scratch.folder, 'for-dclab.rtdc');

@@ -215,3 +215,5 @@ def kill(process):
     """With all that it started."""
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
+    for stream in (process.stdout, process.stderr):
+        stream.close()

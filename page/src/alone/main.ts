@@ -10,7 +10,7 @@ import { moduliVersion, readKnownModuli } from '../recordings/moduli';
 import type { Saved } from './messages';
 import { isSession } from './session_paths';
 import { PairOfPrograms } from './pair';
-import { unpackedText } from './unpacked';
+import { unpacked, unpackedText } from './unpacked';
 
 const content = (id: string) => document.getElementById(id)!.textContent!;
 
@@ -23,7 +23,11 @@ function download({ name, bytes }: Saved): void {
 }
 
 const program = new PairOfPrograms(
-  { script: await unpackedText(content('engine-worker')), wasm: content('engine-wasm'), tables: JSON.parse(content('engine-tables')) },
+  {
+    script: await unpackedText(content('engine-worker')),
+    code: unpacked(content('engine-wasm')).then((bytes) => WebAssembly.compile(bytes)),
+    tables: JSON.parse(content('engine-tables')),
+  },
   { saved: download, restarted: (sentence) => (notify(sentence, 'failed'), void readAnew().catch(() => undefined)) },
 );
 

@@ -8,8 +8,7 @@ export interface PackedTable {
 
 export interface Start {
   kind: 'start';
-  /** as single.mjs packs it */
-  wasm: string;
+  code: WebAssembly.Module;
   tables: PackedTable[];
 }
 

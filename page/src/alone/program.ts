@@ -38,7 +38,8 @@ const aborted = () => new DOMException('', 'AbortError');
 /** What the worker is made of, as it stands in the page. */
 export interface Parts {
   script: string;
-  wasm: string;
+  /** Compiled once for all workers. */
+  code: Promise<WebAssembly.Module>;
   tables: PackedTable[];
 }
 
@@ -149,10 +150,14 @@ export class ProgramInPage implements Program {
     const address = URL.createObjectURL(new Blob([this.parts.script], { type: 'text/javascript' }));
     const worker = new Worker(address);
     this.worker = worker;
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.worker === worker && this.take(data);
-    worker.onerror = ({ message }) => this.worker === worker && this.restart(message);
-    const { wasm, tables } = this.parts;
-    this.tell({ kind: 'start', wasm, tables } satisfies Start);
+    const isCurrent = () => this.worker === worker;
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => isCurrent() && this.take(data);
+    worker.onerror = ({ message }) => isCurrent() && this.restart(message);
+    const { code, tables } = this.parts;
+    code.then(
+      (compiled) => isCurrent() && this.tell({ kind: 'start', code: compiled, tables } satisfies Start),
+      (failure) => isCurrent() && this.restart(failure instanceof Error ? failure.message : String(failure)),
+    );
   }
 
   private next(): void {

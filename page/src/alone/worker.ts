@@ -2,7 +2,7 @@
 import type { Ask, FromWorker, Open, Saved, Start, ToWorker } from './messages';
 import { BlockReader } from './block_reader';
 import { isSession, withPaths } from './session_paths';
-import { unpacked, unpackedTable } from './unpacked';
+import { unpackedTable } from './unpacked';
 import { zipOf } from './zip';
 
 interface Engine {
@@ -86,7 +86,7 @@ function pausing(whole: Compute): Compute {
 
 async function start(message: Start): Promise<void> {
   engine = await rheocyteEngine({
-    instantiateWasm: instantiate(await WebAssembly.compile(await unpacked(message.wasm))),
+    instantiateWasm: instantiate(message.code),
     print: () => undefined,
     printErr: () => undefined,
     takeHead: (status: number, type: string, headers: Record<string, string>) => void (head = { status, type, headers }),
