@@ -16,7 +16,9 @@ class Polynomials {
  public:
   Polynomials(std::span<const double> nodes, const CellCoordinates& cell, int coordinate,
               const std::function<CellFunction(int)>& part_of)
-      : nodes_(nodes), place_(cell(coordinate)), coordinate_(coordinate), part_of_(part_of) {}
+      : nodes_(nodes), place_(cell(coordinate)), coordinate_(coordinate), part_of_(part_of) {
+    weights.reserve(2 * most_nodes);
+  }
 
   struct Window {
     int first, end;
@@ -38,7 +40,7 @@ class Polynomials {
     }
     if (part.value > 0) {
       (down ? window.first : window.end) += down ? -1 : 1;
-      grow(window, weight * part);
+      grow(window, part.value < 1 ? weight * part : weight);
     }
   }
 
@@ -50,10 +52,11 @@ class Polynomials {
         lagrange_weights(nodes_.subspan(std::size_t(window.first), std::size_t(window.end - window.first)), place_);
     for (int node = window.first; node < window.end; ++node) {
       const auto i = std::size_t(node - window.first);
-      const CellFunction share{polynomial.value[i], polynomial.slope[i] * CellCoordinates::Unit(coordinate_)};
       const auto known = std::ranges::find(weights, node, &NodeWeight::node);
-      NodeWeight& sum = known == weights.end() ? weights.emplace_back(NodeWeight{node, {}}) : *known;
-      sum.weight = sum.weight + weight * share;
+      CellFunction& sum = known == weights.end() ? weights.emplace_back(NodeWeight{node, {}}).weight : known->weight;
+      sum.value += weight.value * polynomial.value[i];
+      sum.gradient += polynomial.value[i] * weight.gradient;
+      sum.gradient(coordinate_) += weight.value * polynomial.slope[i];
     }
   }
 

@@ -21,6 +21,7 @@ constexpr double no_branch = -100;  ///< its end
 
 /// What a branch counts that ends there.
 CellFunction part_of(const CellFunction& end, double progress) {
+  if (progress <= end.value) return {1};
   const double place = std::clamp((end.value - progress) / fading + 1, 0., 1.), t = 1 - place;
   const double slope = 6 * place * t / fading;
   return {place * place * (3 - 2 * place), slope * (end.gradient - CellCoordinates::Unit(x_progress))};
@@ -104,7 +105,8 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
   const auto found = std::ranges::find_if(table.branches, is_it);
   if (found == table.branches.end()) return {};
   Curve curve = curve_of(*found);
-  if (curve.place.size() > 1) curve.branch = int(found - table.branches.begin());
+  curve.branch = int(found - table.branches.begin());
+  curve.is_own = curve.place.size() > 1;
   return curve;
 }
 
@@ -123,7 +125,7 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
       for (const double share : shares_)
         for (const double radius : radii_) {
           const Curve& curve = curves_.emplace_back(curve_at(table, {radius, share, ratio, axial}));
-          if (curve.branch < 0) continue;
+          if (!curve.is_own) continue;
           least = std::max(least, curve.place.front());
           greatest = std::max(greatest, curve.place.back());
         }
@@ -145,7 +147,7 @@ void CombinedInterpolation::fill_gaps() {
       Curve& gap = curves_[first + i * stride];
       for (std::size_t far = 1; far < count && gap.place.size() < 2; ++far)
         for (const std::size_t k : {i - far, i + far})
-          if (k < count && curves_[first + k * stride].branch >= 0) gap = curves_[first + k * stride], gap.branch = -1;
+          if (k < count && curves_[first + k * stride].is_own) gap = curves_[first + k * stride], gap.is_own = false;
     }
   };
   for (std::size_t row = 0; row < curves_.size(); row += radii) fill(row, radii, 1);
@@ -190,7 +192,7 @@ std::pair<CombinedInterpolation::Row, CombinedInterpolation::Row> CombinedInterp
 }
 
 CellFunction CombinedInterpolation::end(const Curve& branch) const {
-  return {branch.branch >= 0 ? branch.place.back() : no_branch};
+  return {branch.is_own ? branch.place.back() : no_branch};
 }
 
 CellFunction CombinedInterpolation::end(int sheet, int share, const CellCoordinates& cell) const {
@@ -227,6 +229,7 @@ std::vector<NodeWeight> CombinedInterpolation::axial_weights(const CellCoordinat
 std::vector<CombinedInterpolation::CurveWeight> CombinedInterpolation::curve_weights(
     const CellCoordinates& cell) const {
   std::vector<CurveWeight> all;
+  all.reserve(256);  // of four nodes of each of the four axes
   for (const auto& [axial, of_axial] : axial_weights(cell))
     for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell)) {
       const int sheet = sheet_of(axial, ratio);

@@ -51,8 +51,8 @@ class CombinedInterpolation {
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
-  /// The branches of which `at` makes a state, for whatever else is known of them at this progress, which all of them
-  /// reach; weights sum to one. Empty outside the table.
+  /// The branches of which `at` makes a state, for whatever else is known of them at this progress or, of those that
+  /// count little, at their ends before it; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
   bool is_inside(const CellCoordinates& cell) const;
   const CellBox& box() const { return box_; }
@@ -67,11 +67,12 @@ class CombinedInterpolation {
   using Row = Eigen::Matrix<double, inner_rows, 1>;
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
-    int branch = -1;  ///< of the table; -1: none, and the curve is that of the nearest radius or share that has one
+    int branch = -1;      ///< of the table
+    bool is_own = false;  ///< else there is none, and the curve is that of the nearest radius or share that has one
     std::vector<double> place;
     std::vector<Row> value, slope;
     bool reaches(double log_progress) const {
-      return branch >= 0 && log_progress >= place.front() && log_progress <= place.back();
+      return is_own && log_progress >= place.front() && log_progress <= place.back();
     }
   };
   struct CurveWeight {
