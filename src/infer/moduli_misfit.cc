@@ -49,24 +49,21 @@ void ModuliMisfit::set_free(std::vector<int> free, const CellCoordinates& cell) 
 Eigen::VectorXd ModuliMisfit::parameters() const {
   Eigen::VectorXd parameters(NumParameters());
   for (std::size_t i = 0; i < free_.size(); ++i) parameters(Eigen::Index(i)) = cell_(free_[i]);
-  const auto progress = std::ranges::find(free_, x_progress);
-  if (table_.is_elongated() && progress != free_.end())
-    parameters(progress - free_.begin()) = table_.at(cell_).value(log_stiffness_row);
+  if (table_.is_elongated()) parameters(progress_parameter()) = table_.at(cell_).value(log_stiffness_row);
   return parameters;
 }
 
 ModuliMisfit::Place ModuliMisfit::place(const double* parameters) const {
   Place place{cell_, {}, Eigen::MatrixXd::Zero(coordinate_count, NumParameters())};
-  Eigen::Index progress = -1;
   for (std::size_t i = 0; i < free_.size(); ++i) {
     place.by_parameters(free_[i], Eigen::Index(i)) = 1;
-    if (free_[i] == x_progress) progress = Eigen::Index(i);
     place.cell(free_[i]) = parameters[i];
   }
-  if (!table_.is_elongated() || progress < 0) {
+  if (!table_.is_elongated()) {
     place.state = table_.at(place.cell);
     return place;
   }
+  const Eigen::Index progress = progress_parameter();
   const double log_stiffness = parameters[progress];
   if (follows_tension_) {
     place.cell(x_axial) = 1e-3 * tension_.value_Pa * std::exp(-log_stiffness);

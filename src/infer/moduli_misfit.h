@@ -1,6 +1,7 @@
 // By how much the features of a cell of a combined table miss those of a measured one, in standard errors.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,8 @@ class ModuliMisfit {
   int NumResiduals() const { return int(features_.size()) + coordinate_count + 1; }
   int NumParameters() const { return int(free_.size()); }
 
-  /// The coordinates that are fitted; the others stay as in `cell`, and the axial ratio follows a known tension.
+  /// The coordinates that are fitted, the progress among them; the others stay as in `cell`, and the axial ratio
+  /// follows a known tension.
   void set_free(std::vector<int> free, const CellCoordinates& cell);
   /// Those of the cell.
   Eigen::VectorXd parameters() const;
@@ -51,6 +53,7 @@ class ModuliMisfit {
     Eigen::Matrix<double, coordinate_count, Eigen::Dynamic> by_parameters;
   };
   Place place(const double* parameters) const;
+  Eigen::Index progress_parameter() const { return std::ranges::find(free_, x_progress) - free_.begin(); }
   /// Moves the progress there; the state.
   CombinedState meet_stiffness(double log_stiffness, CellCoordinates& cell) const;
   Eigen::VectorXd evaluate(const CellCoordinates& cell, const CombinedState& state, Jacobian& jacobian) const;

@@ -22,9 +22,8 @@ constexpr double no_branch = -100;  ///< its end
 /// What a branch counts that ends there.
 CellFunction part_of(const CellFunction& end, double progress) {
   if (progress <= end.value) return {1};
-  const double place = std::clamp((end.value - progress) / fading + 1, 0., 1.), t = 1 - place;
-  const double slope = 6 * place * t / fading;
-  return {place * place * (3 - 2 * place), slope * (end.gradient - CellCoordinates::Unit(x_progress))};
+  const double place = std::max((end.value - progress) / fading + 1, 0.);
+  return {hermite(place).last, hermite_slope(place).last / fading * (end.gradient - CellCoordinates::Unit(x_progress))};
 }
 
 /// Linearly between two functions, at the cell's place between the nodes.
