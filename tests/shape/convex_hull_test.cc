@@ -1,3 +1,5 @@
+#include "shape/convex_hull.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,6 +109,17 @@ TEST(ConvexHull, AConcaveFlankIsBridgedBetweenTwoTangencyPoints) {
   };
   const double hidden = 4 * (0.5 * height * half_width - (sector(pi / 2) - sector(t0)));
   EXPECT_NEAR(shape.area - shape.area_raw, hidden, rounding);
+  // The ends themselves, which area and perimeter do not feel to first order.
+  const auto meridian =
+      SampledMeridian::of(interpolate(test::polar([a](double t) { return 1 + a * std::cos(2 * t); }), fine));
+  ASSERT_TRUE(meridian);
+  const auto hull = convex_hull(*meridian, HullParts::all);
+  ASSERT_TRUE(hull);
+  const auto is_chord = [](const CurveArc& arc) { return arc.piece.rows() == 2; };
+  const auto bridge = std::find_if(hull->arcs.begin(), hull->arcs.end(), is_chord);
+  ASSERT_NE(bridge, hull->arcs.end());
+  EXPECT_NEAR(bridge->piece(0, 0), half_width, rounding);
+  EXPECT_NEAR(bridge->piece(1, 0), -half_width, rounding);
   expect_hull_of(test::polar([a](double t) { return 1 + a * std::cos(2 * t); }), shape);
 }
 
