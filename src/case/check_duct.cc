@@ -76,10 +76,6 @@ void check_duct_in_time(const Case& c, const KeyReading& keys) {
     refuse(keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa",
            "is for tubes, or for stationary shapes, where the channel is a duct; give flow.rate_ul_per_s");
   check_off_axis_in_time(c, keys);
-  if (c.cell.bulk.law == BulkLaw::none)
-    refuse("cell.bulk.law",
-           "makes a shell, which is followed in time in tubes alone; choose a law for the bulk, or "
-           "leave channel.section out");
   constexpr double greatest_degree = 6;
   if (c.time.degree.value_or(0) > greatest_degree)
     refuse("time.degree",

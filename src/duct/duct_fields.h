@@ -13,7 +13,7 @@ class DuctFields final : public NodalFields {
         space_(space),
         unknowns_(unknowns),
         um_(scales.length_um()),
-        element_(space.reference().degree()) {}
+        element_(space.reference()) {}
 
   /// About so many points of the mirror plane that the camera looks at, or of the nearest to it, and the cell's whole
   /// surface. Places are those of the mesh.

@@ -11,7 +11,7 @@ namespace rheocyte {
 DuctSpace::DuctSpace(const DuctMesh& mesh, Interior interior, int degree)
     : mesh_(mesh),
       interior_(interior),
-      reference_(degree),
+      reference_(degree, points_for(degree, interior)),
       section_(mesh.geometry(), degree, mesh.symmetry(), mesh.subdivision().across),
       nodes_(mesh.number_nodes(degree)),
       points_(nodes_.count),

@@ -52,7 +52,7 @@ DuctSystem::DuctSystem(const DuctSpace& space, double drop, bool bends)
     : AssembledSystem(space.unknowns(), space.cell_velocity()),
       space_(space),
       drop_(drop),
-      element_(space.reference().degree()),
+      element_(space.reference()),
       tangent_(element_, space.reference()),
       cortex_(space, bends),
       filled_(filled_elements(space)),

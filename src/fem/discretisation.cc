@@ -15,12 +15,6 @@ constexpr double tiny = 1e-10;
 /// soft cells drag their surface far to the rear, nothing at the corner spokes.
 double wall_slide(double along) { return 1 - std::pow(2 * along - 1, 4); }
 
-/// No force holds the mesh of a flowing interior in place: it would follow a volume that is wrong by the rule's error,
-/// and fold. The volume of an element, of degree 3 p - 1 in each direction, is exact with 3 p / 2 points.
-int points_for(int degree, Interior interior) {
-  return interior == Interior::flowing ? std::max(degree + 2, (3 * degree + 1) / 2) : degree + 2;
-}
-
 /// Local nodes of the edge outward = side (0 or 1), in the order of `along`.
 std::vector<int> edge_nodes(const MeshElement& element, const std::vector<int>& nodes, int degree, int side) {
   std::vector<int> edge;

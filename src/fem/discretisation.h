@@ -5,6 +5,7 @@
 // displacements, and one pressure fills the cell. No unknown: the liquid's mesh (it follows the
 // surface along spokes, docs/theory.md eq:spokes) and everything that a boundary condition fixes.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -32,6 +33,13 @@ enum class Interior { elastic, liquid, flowing };
 inline Interior interior_of(const Problem& problem) {
   if (problem.bulk.law == BulkLaw::none) return Interior::liquid;
   return problem.bulk.shear_modulus > 0 ? Interior::elastic : Interior::flowing;
+}
+
+/// Quadrature points in each direction. No force holds the mesh of a flowing interior in place: it would follow a
+/// volume that is wrong by the rule's error, and fold. The volume of an element, of degree 3 p - 1 in each direction,
+/// is exact with 3 p / 2 points.
+inline int points_for(int degree, Interior interior) {
+  return interior == Interior::flowing ? std::max(degree + 2, (3 * degree + 1) / 2) : degree + 2;
 }
 
 /// What the x and r columns of positions do.

@@ -1,7 +1,5 @@
 #include "fem/tensor_tangent.h"
 
-#include "shape/curve.h"
-
 namespace rheocyte {
 namespace {
 
@@ -22,9 +20,9 @@ MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& function
   return array.transpose();
 }
 
-TensorElement::TensorElement(int degree) : nodes_(degree + 1), points_(degree + 2) {
-  const Quadrature gauss = gauss_legendre(points_);
-  shape_ = {lagrange_basis(degree, gauss.points), lagrange_slopes(degree, gauss.points)};
+TensorElement::TensorElement(const ReferenceElement<3>& reference)
+    : nodes_(int(reference.nodes_1d.size())), points_(int(reference.points_1d.size())) {
+  shape_ = {reference.lagrange(reference.points_1d), reference.lagrange_derivative(reference.points_1d)};
   for (int s = 0; s < 2; ++s) transposed_[s] = shape_[s].transpose();
   stacked_products_.resize(4 * points_, nodes_ * nodes_);
   for (int s = 0; s < 2; ++s) {

@@ -14,7 +14,7 @@ MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& function
 /// direction fastest; part 0 is the value, part k the derivative with respect to xi_k.
 class TensorElement {
  public:
-  explicit TensorElement(int degree);
+  explicit TensorElement(const ReferenceElement<3>&);
 
   int nodes_1d() const { return nodes_; }
   int points_1d() const { return points_; }

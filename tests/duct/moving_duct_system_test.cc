@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
+#include <vector>
 
 #include "duct/cell_moments.h"
 #include "taylor.h"
@@ -102,6 +104,36 @@ TEST(MovingDuctSystem, InSimpleShearAViscoelasticSphereDeformsAndTurnsAsInTheExa
                                        (1.0 - std::exp(-relaxation * (i * step)));
     EXPECT_NEAR(std::abs(strain - exact) / std::abs(exact), 0, 0.02) << i * step;
     EXPECT_NEAR(state(space.spin()), -rate / 2, 0.02 * rate);
+  }
+}
+
+TEST(MovingDuctSystem, AnEvenPressureDoesNotMoveTheMeshOfAFlowingInterior) {
+  // As in the tube: wherever the nodes inside are, the forces on them vanish to rounding against those on the surface.
+  const DuctMesh mesh(DuctGeometry(Section::square, 0.6), {}, Symmetry::quarter);
+  for (const int degree : {2, 5}) {
+    const DuctSpace space(mesh, degree, Liquid{}, Drive::rate, Interior::flowing);
+    MovingDuctSystem moving(space);
+    std::vector<bool> in_cell(space.unknowns(), false), in_liquid(space.unknowns(), false);
+    VectorXd x = moving.sphere();
+    for (std::size_t e = 0; e < mesh.elements().size(); ++e) {
+      const bool is_cell = mesh.elements()[e].in_cell();
+      for (const int node : space.nodes().of_element[e])
+        for (const int c : {0, 1, 2})
+          if (const int u = space.displacement(node, c); u >= 0) (is_cell ? in_cell : in_liquid)[u] = true;
+      if (is_cell) x(space.pressure(int(e), 0)) = 1;
+    }
+    const VectorXd random = 1e-4 * random_direction(space.unknowns());
+    for (int u = 0; u < space.unknowns(); ++u)
+      if (in_cell[u] && !in_liquid[u]) x(u) = random(u);
+    const auto [forces, min_det] = moving.residual({.liquid = {}, .bulk = {.shear_modulus = 0}, .cortex = {}}, x);
+    EXPECT_GT(min_det, 0);
+    double inside = 0, on_surface = 0;
+    for (int u = 0; u < space.unknowns(); ++u)
+      if (in_cell[u]) {
+        double& greatest = in_liquid[u] ? on_surface : inside;
+        greatest = std::max(greatest, std::abs(forces(u)));
+      }
+    EXPECT_LT(inside, 1e-12 * on_surface) << degree;
   }
 }
 

@@ -114,6 +114,22 @@ TEST(Funnel, ACellEndsInTheSquareAsItsStationaryShapeWithItsVolume) {
   EXPECT_NEAR(stepper.now().unknowns(0) / stationary.cell_velocity, 1, 3e-3);
 }
 
+TEST(Funnel, AShellEndsInTheSquareAsItsStationaryShapeWithItsVolume) {
+  // What fills it flows on the way and is at rest in the end, where the stationary shape knows its pressure alone.
+  Problem problem = cell_in_funnel({});
+  problem.bulk = {.law = BulkLaw::none, .viscosity = 1};
+  problem.cortex = {.law = CortexLaw::neo_hookean, .modulus = 15, .tension = 1.5};
+  TimeStepper stepper(problem, Resolution{{}, 3}, with_accuracy(1e-2));
+  ASSERT_EQ(stepper.start(), Status::converged);
+  const double volume = stepper.discrete().numbers(problem, stepper.now().unknowns).shape.volume;
+  while (stepper.now().time < 25) ASSERT_EQ(stepper.step(25).status, Status::converged);
+  const StateNumbers numbers = stepper.discrete().numbers(problem, stepper.now().unknowns);
+  EXPECT_NEAR(numbers.shape.volume / volume, 1, 1e-6);
+  const StationaryState stationary = solve_stationary(problem);
+  EXPECT_NEAR(deformation(stepper, Camera::side) / stationary.deformation_side, 1, 0.01);
+  EXPECT_NEAR(stepper.now().unknowns(0) / stationary.cell_velocity, 1, 1e-3);
+}
+
 /// Deformation over the place of the barycentre.
 struct Course {
   std::vector<double> place, deformation;
@@ -177,7 +193,7 @@ Problem cell_in_round_contraction() {
 constexpr double seen_until = 3.6;
 
 Course in_three_dimensions(const Problem& problem) {
-  TimeStepper stepper(problem, moving_duct(problem, {{}, 3}), as_in_runs(1e-4));
+  TimeStepper stepper(problem, moving_duct(with_elastic_interior(problem), {{}, 3}), as_in_runs(1e-4));
   return course_of(stepper, problem, seen_until);
 }
 
@@ -224,7 +240,12 @@ INSTANTIATE_TEST_SUITE_P(
                               }},
                     NamedCell{
                         "Cortex",
-                        [](Problem& p) { p.cortex = {.law = CortexLaw::neo_hookean, .modulus = 3, .tension = 0.3}; }}),
+                        [](Problem& p) { p.cortex = {.law = CortexLaw::neo_hookean, .modulus = 3, .tension = 0.3}; }},
+                    NamedCell{"Shell",
+                              [](Problem& p) {
+                                p.bulk.law = BulkLaw::none;
+                                p.cortex = {.law = CortexLaw::neo_hookean, .modulus = 12, .tension = 1.2};
+                              }}),
     [](const auto& info) { return info.param.name; });
 
 TEST(FunnelLimitsSlow, AStandardLinearSolidHasTheModuliOfItsLimits) {
