@@ -68,7 +68,7 @@ namespace {
 
 template <class Fields>
 MatrixXd numbers_at_points(const Hexahedron& at, const VectorXd& unknowns) {
-  const auto& [space, element, e, self] = at;
+  const auto& [space, element, e, self, spin] = at;
   const int n = space.reference().nodes();
   MatrixXd numbers = MatrixXd::Zero(space.reference().points(), Fields::count);
   const auto add = [&](Source source, const MatrixXd& nodal) {
@@ -108,8 +108,9 @@ void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, ElementSys
     return evaluate_points<CellPoint<3>>(points.numbers, weights, form_at, want, points);
   }
   const auto form_at = [&](int q) {
-    return MovingCellPoint<3>{
-        .law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = self.history[q]};
+    CellHistory<3> history = self.history[q];
+    history.velocity_slope += at.spin * history.turning;
+    return MovingCellPoint<3>{.law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = history};
   };
   evaluate_points<MovingCellPoint<3>>(points.numbers, weights, form_at, want, points);
 }
@@ -118,7 +119,7 @@ void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, ElementSys
 
 VectorXd integrate_hexahedron(const Hexahedron& at, const Media& media, const VectorXd& unknowns, Want want,
                               ElementSystem& points) {
-  const auto& [space, element, e, self] = at;
+  const auto& [space, element, e, self, spin] = at;
   const ReferenceElement<3>& reference = space.reference();
   if (self.liquid) {
     points.numbers = numbers_at_points<Liquids>(at, unknowns);

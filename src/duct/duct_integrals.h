@@ -24,6 +24,7 @@ struct Hexahedron {
   const TensorElement& element;
   int number;
   const HexahedronUnknowns& self;
+  double spin = 0;  ///< of a cell off the axis on its way
 };
 
 /// Residual of one element in the order of its rows; `points` keeps the fluxes at the points and, if wanted, their

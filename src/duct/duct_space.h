@@ -29,6 +29,7 @@ struct HexahedronUnknowns {
   /// points; else empty.
   double rate = 0;
   std::vector<CellHistory<3>> history = {};
+  int spin = -1;  ///< unknown with which the material turns through the shape; -1: it does not
 };
 
 /// A velocity along x, of (y, z).

@@ -31,7 +31,8 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const Duct
     for (const auto* slots : {&elements[e].displacement, &elements[e].velocity}) {
       for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
     }
-    if (space.turns() && touches_cell(space.mesh().elements()[e])) unknowns.insert(space.spin());
+    const DuctElement& element = space.mesh().elements()[e];
+    if (space.turns() && (touches_cell(element) || element.in_cell())) unknowns.insert(space.spin());
     for (const int patch : cortex.patches_of(e)) {
       for (const int unknown : cortex.unknowns_of(patch).reshaped()) unknowns.insert(unknown);
       for (const int unknown : cortex.equations_of(patch).reshaped()) unknowns.insert(unknown);
@@ -83,15 +84,29 @@ VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
 double DuctSystem::add_part(int part, const At& at, PartResidual& sum, PartWorkspace<float>& workspace) const {
   const int e = filled_[part];
   const HexahedronUnknowns& self = unknowns_of(e);
-  const VectorXd residual =
-      integrate_hexahedron({space_, element_, e, self}, at.media, at.unknowns, at.want, workspace.element);
+  Hexahedron hexahedron{space_, element_, e, self};
+  if (self.spin >= 0) hexahedron.spin = at.unknowns(self.spin);
+  const VectorXd residual = integrate_hexahedron(hexahedron, at.media, at.unknowns, at.want, workspace.element);
   for (int i = 0; i < residual.size(); ++i) sum.add(self.rows[i], residual(i));
   if (at.want == Want::residual_and_tangent) {
     tangent_.add(self, at.media.liquid.reynolds != 0, workspace);
     turning_.add_tangent(e, at.unknowns, workspace.place, workspace.matrix);
+    if (self.spin >= 0) add_spin(hexahedron, at, residual, workspace);
   }
   add_cortex(e, at, sum, workspace);
   return workspace.element.min_det;
+}
+
+// The viscous stress is linear in the spin.
+void DuctSystem::add_spin(Hexahedron at_spin, const At& at, const VectorXd& residual,
+                          PartWorkspace<float>& workspace) const {
+  at_spin.spin += 1;
+  const VectorXd change =
+      integrate_hexahedron(at_spin, at.media, at.unknowns, Want::residual, workspace.element) - residual;
+  for (int i = 0; i < change.size(); ++i) {
+    if (const int row = at_spin.self.rows[i]; row >= 0)
+      workspace.matrix(workspace.place[row], workspace.place[at_spin.self.spin]) += float(change(i));
+  }
 }
 
 void DuctSystem::add_cortex(int element, const At& at, PartResidual& sum, PartWorkspace<float>& workspace) const {

@@ -42,6 +42,8 @@ class DuctSystem : public AssembledSystem<float> {
   VectorXd loads(const Media&, const VectorXd& unknowns) override;
   double add_part(int part, const At&, PartResidual&, PartWorkspace<float>&) const override;
   void finish(const VectorXd& unknowns, VectorXd& total) const override { turning_.add_residual(unknowns, total); }
+  /// What the spin does in an element of the cell whose residual is known.
+  void add_spin(Hexahedron, const At&, const VectorXd& residual, PartWorkspace<float>&) const;
   /// Of the patches of the surface that an element has a share in.
   void add_cortex(int element, const At&, PartResidual&, PartWorkspace<float>&) const;
 

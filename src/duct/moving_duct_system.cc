@@ -79,7 +79,7 @@ Eigen::MatrixX3d MovingDuctSystem::turning_velocity(int e) const {
     }
     velocity.row(i) = (now * rest.inverse() * DuctPoint(-X(i, 1), X(i, 0), 0)).transpose();
   }
-  return motion_.turning(space().spin()) * velocity;
+  return velocity;
 }
 
 void MovingDuctSystem::set_history(int e) {
@@ -90,15 +90,19 @@ void MovingDuctSystem::set_history(int e) {
     const int unknown = self.displacement[i].unknown;
     displacement(i % n, i / n) = unknown < 0 ? 0 : motion_.unknowns(unknown);
   }
-  if (motion_.turning.size() > 0) displacement += turning_velocity(e);
   self.rate = motion_.rate;
   self.history.assign(space().reference().points(), {});
+  self.spin = motion_.turning.size() > 0 ? space().spin() : -1;
+  const MatrixXd turning = self.spin >= 0 ? turning_velocity(e) : MatrixXd::Zero(n, 3);
   for (int k = 0; k < 3; ++k) {
-    const MatrixXd slopes = element().at_points(k + 1, displacement);
+    const MatrixXd slopes = element().at_points(k + 1, displacement), by_spin = element().at_points(k + 1, turning);
     // The form knows the place, not the displacement.
-    for (int q = 0; q < slopes.rows(); ++q)
-      for (int c = 0; c < 3; ++c)
+    for (int q = 0; q < slopes.rows(); ++q) {
+      for (int c = 0; c < 3; ++c) {
         self.history[q].velocity_slope(c, k) = slopes(q, c) - motion_.rate * self.undeformed[q].G(c, k);
+        self.history[q].turning(c, k) = by_spin(q, c);
+      }
+    }
   }
 }
 

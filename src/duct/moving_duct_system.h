@@ -24,8 +24,8 @@ class MovingDuctSystem final : public DuctSystem {
   const HexahedronUnknowns& unknowns_of(int element) const override { return elements_[element]; }
   void move_surface(int element);
   void set_history(int element);
-  /// Velocity with which the material passes through the nodes of an element of the cell (eq:turning-in-time), that of
-  /// the state to which the motion extrapolates.
+  /// Velocity with which the material passes through the nodes of an element of the cell at the spin 1
+  /// (eq:turning-in-time), in the shape to which the motion extrapolates.
   Eigen::MatrixX3d turning_velocity(int element) const;
   void set_branch_history();
 

@@ -72,6 +72,8 @@ template <int dim>
 struct CellHistory {
   Components<double, dim> velocity = Components<double, dim>::Zero();  ///< from (u_x, r); in axial symmetry alone
   Slopes<double, dim> velocity_slope = Slopes<double, dim>::Zero();    ///< from G
+  Slopes<double, dim> turning =
+      Slopes<double, dim>::Zero();  ///< that of the velocity with which the material turns at spin 1
   Components<double, dim> acceleration = Components<double, dim>::Zero();
   Tensor<double> branch = Tensor<double>::Zero();  ///< of the branch's metric
 };

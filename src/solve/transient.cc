@@ -24,6 +24,9 @@ Subdivision fine_subdivision(int surface_elements) {
 }
 
 constexpr double residual_of_step = 1e-3, min_tolerance = 1e-9, max_tolerance = 1e-6;
+/// Newton's method leaves errors of displacements, which over a shorter step would make more than a tenth of the mean
+/// velocity.
+constexpr double min_step_of_tolerance = 10;
 constexpr double first_step_of_accuracy = 8, max_first_step = 0.01;
 
 TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const WorkLimits& limits) {
@@ -31,14 +34,16 @@ TimeStepOptions step_options(const Problem& problem, const TimeRun& run, const W
   options.accuracy = run.accuracy;
   options.newton.stop = limits.stop;
   options.threads = limits.threads;
-  if (!is_duct(problem.section)) return options;
-  // A deformation changes by about as much as the residual, the surface by more than that in a step that is accurate.
-  options.newton.tolerance = std::clamp(residual_of_step * run.accuracy, min_tolerance, max_tolerance);
-  // A factorisation takes as long as so many chord steps, also from one step to the next.
-  options.newton.chord_limit = 15;
-  options.newton.keep_factors = true;
-  // Without inertia nothing is fast at the start but the cell itself.
-  options.first_step = std::clamp(first_step_of_accuracy * run.accuracy, options.first_step, max_first_step);
+  if (is_duct(problem.section)) {
+    // A deformation changes by about as much as the residual, the surface by more than that in a step that is accurate.
+    options.newton.tolerance = std::clamp(residual_of_step * run.accuracy, min_tolerance, max_tolerance);
+    // A factorisation takes as long as so many chord steps, also from one step to the next.
+    options.newton.chord_limit = 15;
+    options.newton.keep_factors = true;
+    // Without inertia nothing is fast at the start but the cell itself.
+    options.first_step = std::clamp(first_step_of_accuracy * run.accuracy, options.first_step, max_first_step);
+  }
+  options.min_step = min_step_of_tolerance * options.newton.tolerance;
   return options;
 }
 

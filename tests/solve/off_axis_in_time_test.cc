@@ -86,6 +86,24 @@ TEST(OffAxisInTime, BothSidesOfTheAxisMirrorEachOther) {
   EXPECT_NEAR(above.deformation, below.deformation, 1e-6);
 }
 
+TEST(OffAxisInTime, ASoftInteriorThatIsMoreViscousThanTheLiquidIsFollowed) {
+  // Its viscous stress is twenty times the elastic one, so that the spin decides that of its velocity: with the spin of
+  // the steps before in it steps became ever shorter, and the cell turned backwards.
+  Problem problem = cell_at(0.2, 0);
+  problem.bulk.shear_modulus = 0.5;
+  problem.bulk.viscosity = 6;
+  problem.cortex = {.law = CortexLaw::neo_hookean, .modulus = 1.75, .tension = 1.1};
+  TimeStepper stepper(problem, {{}, 2}, with_accuracy(3e-3));
+  ASSERT_EQ(stepper.start(), Status::converged);
+  int steps = 0;
+  for (; stepper.now().time < 6 && steps < 40; ++steps) ASSERT_EQ(stepper.step(6).status, Status::converged);
+  EXPECT_LT(steps, 40);
+  const Place now = place_of(stepper);
+  EXPECT_LT(now.offset, 0.18);
+  EXPECT_GT(now.offset, 0);
+  EXPECT_GT(now.spin, 0);
+}
+
 TEST(OffAxisInTime, NearTheAxisOfAFunnelItIsAsOnTheAxis) {
   // On the mesh of another symmetry and other elements: both have an error of some per cent at degree 3.
   const WallTable wall{{0.5, 1.5}, {2, 1}, 0.3};
