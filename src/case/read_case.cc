@@ -129,8 +129,6 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
   if (c.cell.bulk.law == BulkLaw::none)
     refuse("is for cells with an elastic interior; the turning surface of a shell would drag its liquid round");
-  if (c.cell.cortex.bending_kBT > 0)
-    refuse("is for cells without bending stiffness; leave cell.cortex.bending_kBT out");
   const Extent extent = extent_of(c);
   const bool is_along_profile = offset[0] != 0 && has_profile(keys);
   const double half = is_along_profile ? WallProfile(wall_radii_um(c)).radius(0)

@@ -17,9 +17,10 @@ namespace {
 constexpr DuctSubdivision coarse{.along = 2, .layers = 1, .axial = 1, .across = 2};
 
 struct HalfDuct {
-  HalfDuct(double radius, double offset, int degree, const DuctSubdivision& n = coarse, const Liquid& liquid = {})
+  HalfDuct(double radius, double offset, int degree, const DuctSubdivision& n = coarse, const Liquid& liquid = {},
+           bool bends = false)
       : space(DuctMesh(DuctGeometry(DuctShape{.radius = radius, .offset = offset}), n, Symmetry::half), degree, liquid),
-        system(space) {}
+        system(space, 1, bends) {}
   HalfDuct(double radius, int degree, const GivenFlow& flow)
       : space(
             DuctMesh(DuctGeometry(DuctShape{.radius = radius}), {.along = 2, .axial = 1, .across = 2}, Symmetry::half),
@@ -44,12 +45,13 @@ VectorXd solved(DuctSystem& system, const Media& media) {
 
 TEST(OffAxis, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // And the factors are the tangent's: each correction leaves as little as single precision allows. Of a bare solid,
-  // and of one with a cortex in surroundings under tension.
+  // and of one with a cortex, which bends, too, in surroundings under tension.
   const Bulk solid{.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3},
       pulled{.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3, .axial_tension = 0.5};
   for (const auto& [bulk, cortex] :
-       {std::pair{solid, Cortex{}}, std::pair{pulled, Cortex{CortexLaw::neo_hookean, 2, 0.3}}}) {
-    HalfDuct duct(0.4, 0.2, 2);
+       {std::pair{solid, Cortex{}}, std::pair{pulled, Cortex{CortexLaw::neo_hookean, 2, 0.3}},
+        std::pair{pulled, Cortex{CortexLaw::neo_hookean, 2, 0.3, 0.02}}}) {
+    HalfDuct duct(0.4, 0.2, 2, coarse, {}, cortex.bending > 0);
     const Media media{.liquid = {.reynolds = 0.7}, .bulk = bulk, .cortex = cortex};
     VectorXd x = duct.system.sphere();
     x += duct.system.solve(-duct.system.linearise(media, x).value);
@@ -84,12 +86,12 @@ TEST(OffAxis, InSimpleShearAnElasticSphereTurnsAtHalfTheRateAndTakesTheStrainOfS
 }
 
 TEST(OffAxis, AtOffsetZeroTheStateIsTheCentredOne) {
-  const Media media{.bulk = {.shear_modulus = 30}};
+  const Media media{.bulk = {.shear_modulus = 30}, .cortex = {CortexLaw::neo_hookean, 2, 0.3, 0.05}};
   // The half has the very elements of the eighth and of its images.
   constexpr DuctSubdivision wedges{.along = 2, .layers = 1, .axial = 1};
-  HalfDuct half(0.5, 0, 2, wedges);
+  HalfDuct half(0.5, 0, 2, wedges, {}, true);
   DuctSpace space(DuctMesh(DuctGeometry(Section::square, 0.5), wedges), 2, Liquid{});
-  DuctSystem eighth(space);
+  DuctSystem eighth(space, 1, true);
   const VectorXd x = solved(half.system, media), y = solved(eighth, media);
   EXPECT_NEAR(x(half.space.cell_velocity()), y(space.cell_velocity()), 1e-8);
   EXPECT_NEAR(x(half.space.drift()), 0, 1e-8);
