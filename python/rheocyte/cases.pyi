@@ -44,7 +44,7 @@ class _CellBulk:
     mooney_share: float | None  # share of the neo-hookean law in the mooney-rivlin one, the rest is linear
 
 class _CellCortex:
-    law: Literal["none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"]  # elastic law of the cell's surface, the cortex
+    law: Literal["none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference", "skalak"]  # elastic law of the cell's surface, the cortex
     modulus_mN_per_m: float | None  # elastic modulus E2D of the cortex, Young's modulus x thickness
     tension_mN_per_m: float | None  # surface tension of the cell
     tension_ratio: float | None  # surface tension as a share of the modulus of the cortex

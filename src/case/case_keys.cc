@@ -131,7 +131,7 @@ const std::array table = {
         Number{{0, 1}}, 0.5, mooney_rivlin),
 
     KEY(cell.cortex.law, "", "elastic law of the cell's surface, the cortex",
-        Choice{{"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference"}}, 0),
+        Choice{{"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference", "skalak"}}, 0),
     KEY(cell.cortex.modulus_mN_per_m, "mN/m", "elastic modulus E2D of the cortex, Young's modulus x thickness",
         Number{{1e-6, 1e9}}, required, has_shell, {}, "--cortex-modulus-mN-m"),
     KEY(cell.cortex.tension_mN_per_m, "mN/m", "surface tension of the cell", Number{{0, 1e9}}, 0.0, {},

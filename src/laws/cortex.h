@@ -8,8 +8,9 @@
 namespace rheocyte {
 
 /// Elastic laws of the cell's surface: `linear`, `thin_shell`, `neo_hookean` are those of Mokbel et al. 2017;
-/// `neo_hookean_reference` is the usual membrane law with its energy per reference area.
-enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference };
+/// `neo_hookean_reference` is the usual membrane law with its energy per reference area, `skalak` that of red blood
+/// cells' membranes with C = 1, which stiffens where the others soften.
+enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference, skalak };
 
 struct Cortex {
   CortexLaw law = CortexLaw::none;
@@ -26,7 +27,8 @@ inline double rest_pressure(const Cortex& cortex, double radius) { return 2 * co
 /// Elastic energy of the shell per CURRENT area, zero at rest, of two invariants: the sum of the principal stretches
 /// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D. linear: the energy whose tensions are
 /// eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone); thin_shell, neo_hookean: their eqs. 8a
-/// and 8b; neo_hookean_reference: the membrane law, energy per reference area.
+/// and 8b; neo_hookean_reference, skalak (Skalak et al. 1973, doi 10.1016/S0006-3495(73)85983-1): energies per
+/// reference area.
 template <class T>
 T shell_energy_of(const Cortex& cortex, const T& sum, const T& area) {
   const double E2D = cortex.modulus, K = 4.0 / 3 * E2D;
@@ -39,6 +41,10 @@ T shell_energy_of(const Cortex& cortex, const T& sum, const T& area) {
     case CortexLaw::thin_shell: return constant<T>(K / 2) * (e * e - (area - sum + constant<T>(1)));
     case CortexLaw::neo_hookean: return constant<T>(E2D / 6) * incompressible;
     case CortexLaw::neo_hookean_reference: return constant<T>(E2D / 6) * incompressible / area;
+    case CortexLaw::skalak: {
+      const T I1 = squares - constant<T>(2), I2 = area * area - constant<T>(1);
+      return constant<T>(E2D / 12) * (I1 * I1 + constant<T>(2) * (I1 - I2) + I2 * I2) / area;
+    }
   }
   return constant<T>(0);
 }

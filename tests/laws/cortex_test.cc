@@ -14,7 +14,7 @@ using test::states;
 constexpr double rounding = 1e-12;
 constexpr double E2D = 3;
 constexpr std::array laws = {CortexLaw::linear, CortexLaw::thin_shell, CortexLaw::neo_hookean,
-                             CortexLaw::neo_hookean_reference};
+                             CortexLaw::neo_hookean_reference, CortexLaw::skalak};
 
 std::array<double, 2> tensions(CortexLaw law, double l1, double l2) {
   return principal_tensions<double>({law, E2D, 0, 0}, l1, l2);
@@ -34,7 +34,7 @@ TEST(Cortex, AllLawsAgreeToFirstOrder) {
 }
 
 TEST(Cortex, TheTensionsAreThoseOfTheirSources) {
-  // Mokbel et al. 2017, eq. 19 (linear) and eqs. 8, 17 (neo-hookean); the membrane law of the textbooks.
+  // Mokbel et al. 2017, eq. 19 (linear) and eqs. 8, 17 (neo-hookean); the membrane laws of the textbooks.
   RandomStates random;
   for (int i = 0; i < states; ++i) {
     const double a = random.number(0.6, 1.6), b = random.number(0.6, 1.6), J = a * b;
@@ -42,6 +42,8 @@ TEST(Cortex, TheTensionsAreThoseOfTheirSources) {
     EXPECT_NEAR(tensions(CortexLaw::neo_hookean, a, b)[0], E2D / 6 * (3 * a * a + b * b - 1 / (J * J) - 3),
                 rounding * E2D * 10);
     EXPECT_NEAR(tensions(CortexLaw::neo_hookean_reference, a, b)[1], E2D / 3 * (b / a - 1 / (J * J * J)),
+                rounding * E2D * 100);
+    EXPECT_NEAR(tensions(CortexLaw::skalak, a, b)[0], E2D / 3 * (a * a * (a * a - 1) + J * J * (J * J - 1)) / J,
                 rounding * E2D * 100);
   }
 }

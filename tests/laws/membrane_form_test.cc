@@ -15,8 +15,12 @@ using test::RandomStates;
 using test::states;
 
 constexpr double rounding = 1e-12;
-constexpr std::array laws = {CortexLaw::none, CortexLaw::linear, CortexLaw::thin_shell, CortexLaw::neo_hookean,
-                             CortexLaw::neo_hookean_reference};
+constexpr std::array laws = {CortexLaw::none,
+                             CortexLaw::linear,
+                             CortexLaw::thin_shell,
+                             CortexLaw::neo_hookean,
+                             CortexLaw::neo_hookean_reference,
+                             CortexLaw::skalak};
 
 /// A patch that was a unit square, with these principal stretches at some angle, somewhere in space.
 struct Patch {
