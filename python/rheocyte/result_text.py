@@ -7,7 +7,7 @@ import numpy as np
 
 def written(law):
     """A case's name of an elastic law as text: people are written with capitals."""
-    return law.replace("hookean", "Hookean").replace("mooney-rivlin", "Mooney-Rivlin")
+    return law.replace("hookean", "Hookean").replace("mooney-rivlin", "Mooney-Rivlin").replace("skalak", "Skalak")
 
 
 def made_of(result):
