@@ -167,13 +167,30 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
   }
 }
 
+// Where the tension is about as great as the stiffness the features say little of it by themselves, and the way down
+// from a start that is far off ends in another valley.
+CellCoordinates BulkCortexFit::with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start) {
+  CellCoordinates best = start;
+  double least = HUGE_VAL;
+  Eigen::VectorXd residual(misfit.NumResiduals());
+  for (const double change_of_logarithm : {0.0, -0.8, -0.4, 0.4, 0.8}) {
+    misfit.set_free({x_progress}, start);
+    const Eigen::VectorXd x = misfit.parameters().array() + change_of_logarithm;
+    misfit(x.data(), residual.data(), nullptr);
+    if (residual.squaredNorm() >= least) continue;
+    least = residual.squaredNorm();
+    best = misfit.cell_at(x.data());
+  }
+  return best;
+}
+
 BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit) const {
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
   for (const double place : {0.1, 0.5, 0.9}) {
     start(x_share) = box.least(x_share) + place * (box.greatest(x_share) - box.least(x_share));
-    minima.push_back(minimum_from(misfit, start, Share::fitted));
+    minima.push_back(minimum_from(misfit, with_best_stiffness(misfit, start), Share::fitted));
   }
   return *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
 }

@@ -109,6 +109,8 @@ class BulkCortexFit {
   /// In the table's channel and flow.
   ModuliMisfit misfit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension) const;
   CellCoordinates start_for(const MeasuredShape& shape) const;
+  /// The start at which the features fit best of some whose stiffnesses differ, with the tension that is known.
+  static CellCoordinates with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start);
   Candidate nearest(ModuliMisfit& misfit) const;
   Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Share share) const;
   std::vector<Candidate> profile(ModuliMisfit& misfit, const Candidate& best) const;
