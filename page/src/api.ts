@@ -133,6 +133,8 @@ export interface TimeStep {
   velocity_m_per_s: number;
   contour: Outline;
   contours?: Contours;
+  /** of a channel that is not straight, relative to the cell; of a duct half its width */
+  wall?: Outline;
   progress: number;
   /** of some steps, where there are many */
   fields?: FieldsText;

@@ -6,14 +6,15 @@ const { sightsOf, halfOfStraight, titleOfAside } = await loadModule('cell/camera
 const { streamlines } = await loadModule('draw/streamlines.ts');
 
 const outline = (size) => ({ x_um: [size, -size, size], r_um: [0, size, -size] });
-const step = { x_um: 50, contour: outline(1), contours: { side: outline(2), across: outline(3) } };
+const wall = { x_um: [-20, 20], r_um: [50, 10] };
+const step = { contour: outline(1), contours: { side: outline(2), across: outline(3) }, wall };
 const chip = { 'channel.section': 'square', 'channel.profile.x_um': [30, 70], 'channel.profile.width_um': [100, 20] };
 
 test('In a planar funnel the cell is seen from above between the walls of the funnel, and from the side between straight ones', () => {
   const [above, side] = sightsOf(chip, step);
   assert.deepEqual([above.title, side.title], ['From above', 'From the side']);
   assert.deepEqual([above.contour, side.contour], [outline(2), outline(3)]);
-  assert.deepEqual(above.wall, { x_um: [-20, 20], r_um: [50, 10] });
+  assert.deepEqual(above.wall, wall);
   assert.equal(above.radius_um, 25, 'the cell is not lost in a wide channel');
   assert.equal(side.radius_um, 10);
   assert.equal(side.wall, undefined);

@@ -201,17 +201,26 @@ std::string contours_offset_csv(const TimeRecord& record) {
   return contours_text(record, &ContourFrame::offset_um, "y_um");
 }
 
+WallLine wall_line(const Problem& problem, const Scales& scales, double start, double end, int samples) {
+  const WallProfile wall(problem.wall);
+  const double um = scales.length_um();
+  WallLine line;
+  for (int i = 0; i <= samples; ++i) {
+    const double x = start + (end - start) * i / samples;
+    line.x_um.push_back(um * x);
+    line.distance_um.push_back(um * problem.extent.width * wall.radius(x));
+  }
+  return line;
+}
+
 std::string channel_csv(const Problem& problem, const Scales& scales) {
   constexpr int samples = 500;
   constexpr double beyond = 4;  // tube radii
   const WallTable& table = problem.wall;
-  const WallProfile wall(table);
-  const double um = scales.length_um(), start = table.x.front() - beyond, end = table.x.back() + beyond;
+  const WallLine line = wall_line(problem, scales, table.x.front() - beyond, table.x.back() + beyond, samples);
   std::string text = "x_um,R_um\n";
-  for (int i = 0; i <= samples; ++i) {
-    const double x = start + (end - start) * i / samples;
-    text += fmt::format("{:.8g},{:.8g}\n", um * x, um * problem.extent.width * wall.radius(x));
-  }
+  for (std::size_t i = 0; i < line.x_um.size(); ++i)
+    text += fmt::format("{:.8g},{:.8g}\n", line.x_um[i], line.distance_um[i]);
   return text;
 }
 

@@ -86,6 +86,13 @@ std::string contours_across_csv(const TimeRecord&);
 /// contours_offset.csv: the outlines in the plane of the offset; empty on the axis.
 std::string contours_offset_csv(const TimeRecord&);
 
+/// The wall of a channel that is not straight, its distance from the axis at samples + 1 places from start to end (in
+/// R); of a duct half its width.
+struct WallLine {
+  std::vector<double> x_um, distance_um;
+};
+WallLine wall_line(const Problem&, const Scales&, double start, double end, int samples);
+
 /// channel.csv: x_um, R_um; the wall of a channel that is not straight, finely, from the start of the cell. In a duct
 /// half its width.
 std::string channel_csv(const Problem&, const Scales&);

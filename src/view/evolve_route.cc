@@ -96,9 +96,19 @@ class EvolutionLines {
     if (std::isfinite(frame.state.deformation_across)) json["deformation_across"] = frame.state.deformation_across;
     if (frame.state.offset_outline.rows() > 0) json["offset_um"] = scales.length_um() * frame.state.offset;
     json.update(shown.outlines());
+    if (!result.problem.wall.is_straight()) json["wall"] = wall_seen(result, frame);
     std::string line = json_line(json);
     if (has_fields(so_far)) add_member(line, "fields", shown.fields(points_in_frame));
     return line + "\n";
+  }
+
+  /// Round the cell, from where it is.
+  static Json wall_seen(const Result& result, const TimeFrame& frame) {
+    constexpr int samples = 120;
+    const double half = frame.state.channel_length / 2;
+    WallLine line = wall_line(result.problem, result.scales, frame.position - half, frame.position + half, samples);
+    for (double& x_um : line.x_um) x_um -= result.scales.length_um() * frame.position;
+    return {{"x_um", line.x_um}, {"r_um", line.distance_um}};
   }
 
   bool has_fields(const Evolution<std::string>& so_far) const {

@@ -54,6 +54,11 @@ TEST_F(CellsInDucts, ThroughAFunnelIntoASquareBothCamerasSeeTheCell) {
   EXPECT_TRUE(first["deformation_across"].is_number());
   EXPECT_GE(least(floats(first["fields"]["xy_um"]), 2, 1), -1e-4) << "the upper half";
   EXPECT_FALSE(first["fields"]["surface3d"]["index"].get<std::string>().empty());
+  const std::vector<double> x_um = first["wall"]["x_um"], r_um = first["wall"]["r_um"];
+  ASSERT_EQ(x_um.size(), r_um.size());
+  EXPECT_NEAR(x_um.front(), -x_um.back(), 1e-9) << "round the cell";
+  EXPECT_TRUE(std::ranges::is_sorted(r_um, std::greater()));
+  EXPECT_LT(r_um.back(), r_um.front());
 }
 
 TEST_F(CellsInDucts, ACellOffTheAxisIsShownInThePlaneOfItsOffset) {

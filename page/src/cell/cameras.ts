@@ -19,10 +19,10 @@ type Wall = Pick<Sight, 'wall' | 'radius_um'>;
 /** Of the least distance of the wall from the axis: so much is shown on either side of it, and not all of a wide channel. */
 const shownOfWide = 2.5;
 
-/** A wall whose distances from the axis are given at places along the channel. */
-function profiled(places_um: number[] | undefined, distance_um: number[] | undefined, straight_um: number, x_um: number): Wall {
-  if (!distance_um || !places_um) return { radius_um: straight_um };
-  return { wall: { x_um: places_um.map((x) => x - x_um), r_um: distance_um }, radius_um: Math.min(Math.max(...distance_um), shownOfWide * Math.min(...distance_um)) };
+/** A wall whose distances from the axis are given at places along the channel, which says how much is shown. */
+function profiled(wall: Outline | undefined, distance_um: number[] | undefined, straight_um: number): Wall {
+  if (!distance_um) return { radius_um: straight_um };
+  return { wall, radius_um: Math.min(Math.max(...distance_um), shownOfWide * Math.min(...distance_um)) };
 }
 
 const isDuct = (of: Case) => (of['channel.section'] ?? 'tube') !== 'tube';
@@ -52,14 +52,13 @@ export function titleOfAside(of: Case): string {
 const looksAlongWidth = (of: Case) => Number(of['channel.camera_degree'] ?? 0) > 45;
 
 /** The chosen camera's first; of a duct that is not alike along height and width, both. */
-export function sightsOf(of: Case, { contour, contours, x_um }: Pick<TimeStep, 'contour' | 'contours' | 'x_um'>): Sight[] {
-  const places_um = of['channel.profile.x_um'] as number[] | undefined;
+export function sightsOf(of: Case, { contour, contours, wall }: Pick<TimeStep, 'contour' | 'contours' | 'wall'>): Sight[] {
   if (!isDuct(of)) {
-    return [{ title: '', contour, ...profiled(places_um, of['channel.profile.R_um'] as number[] | undefined, halfOfStraight(of), x_um) }];
+    return [{ title: '', contour, ...profiled(wall, of['channel.profile.R_um'] as number[] | undefined, halfOfStraight(of)) }];
   }
   const halfWidths_um = (of['channel.profile.width_um'] as number[] | undefined)?.map((width) => width / 2);
   const { width_um, height_um } = straightSize(of);
-  const above = { title: fromAbove, ...profiled(places_um, halfWidths_um, width_um / 2, x_um) };
+  const above = { title: fromAbove, ...profiled(wall, halfWidths_um, width_um / 2) };
   const beside = { title: fromSide, radius_um: height_um / 2 };
   const aside = titleOfAside(of);
   if (aside) return [{ ...(aside === fromSide ? beside : above), contour }];
