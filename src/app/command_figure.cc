@@ -29,7 +29,7 @@ struct FigureOptions {
 // Returns only if the interpreter cannot be started.
 int become_python(const FigureOptions& options) {
   auto call = python_call("figure");
-  call.insert(call.end(), {"--program", (program_folder() / "rheocyte").string()});
+  call.insert(call.end(), {"--program", program_file().string()});
   if (!options.viscosity_mPas.empty()) call.insert(call.end(), {"--viscosity-mPas", options.viscosity_mPas});
   if (!options.temperature_if_missing.empty())
     call.insert(call.end(), {"--temperature-if-missing", options.temperature_if_missing});

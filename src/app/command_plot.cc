@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 #include "app/cli.h"
 #include "app/commands.h"
@@ -111,7 +112,7 @@ class Plot {
 
   int draw() {
     if (stop_wanted()) return exit_stopped();
-    const auto drawn = drawing_.finish({folder_.path().string(), stem_.string()});
+    const auto drawn = drawing_.finish(std::vector{folder_.path().string(), stem_.string()});
     if (stop_wanted()) return exit_stopped();
     if (drawn.exit_code == exit_user_error) throw UserError(drawn.last_line);
     if (drawn.exit_code != 0) {

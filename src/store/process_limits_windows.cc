@@ -1,29 +1,13 @@
 #include <windows.h>
 
 #include <bit>
-#include <cstdlib>
-#include <new>
-#include <string_view>
 
 #include "store/process_limits.h"
+#include "store/process_limits_of_system.h"
 
 namespace rheocyte {
 
-namespace {
-
-constexpr std::string_view no_memory =
-    "rheocyte: the memory of this machine does not suffice; a larger numerics.accuracy needs less. What was finished "
-    "is kept.\n";
-
-int code_without_memory = 1;
-
-[[noreturn]] void end_now() {
-  DWORD written = 0;
-  ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), no_memory.data(), no_memory.size(), &written, nullptr);
-  ::_exit(code_without_memory);
-}
-
-}  // namespace
+const char* const whose_memory = "this machine";
 
 /// The linker has set it.
 std::string secure_stack(char**) { return {}; }
@@ -39,10 +23,5 @@ std::size_t open_files_limit() {
 }
 
 void keep_freed_memory() {}
-
-void end_without_memory(int exit_code) {
-  code_without_memory = exit_code;
-  std::set_new_handler(end_now);
-}
 
 }  // namespace rheocyte

@@ -10,9 +10,9 @@
 
 namespace rheocyte {
 
-std::filesystem::path program_folder() {
+std::filesystem::path program_file() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  return std::filesystem::read_symlink("/proc/self/exe", error);
 }
 
 namespace {
@@ -22,9 +22,9 @@ namespace {
 std::filesystem::path own_folder() {
   Dl_info place{};
   link_map* entry = nullptr;
-  const bool found = ::dladdr1(reinterpret_cast<void*>(&program_folder), &place, reinterpret_cast<void**>(&entry),
-                               RTLD_DL_LINKMAP) != 0;
-  if (!found || entry == nullptr || *entry->l_name == '\0') return program_folder();
+  const bool found =
+      ::dladdr1(reinterpret_cast<void*>(&program_file), &place, reinterpret_cast<void**>(&entry), RTLD_DL_LINKMAP) != 0;
+  if (!found || entry == nullptr || *entry->l_name == '\0') return program_file().parent_path();
   std::error_code error;
   return std::filesystem::weakly_canonical(to_path(entry->l_name), error).parent_path();
 }

@@ -13,13 +13,13 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
-fs::path program_folder() {
+fs::path program_file() {
   std::uint32_t size = 0;
   ::_NSGetExecutablePath(nullptr, &size);
   std::string name(size, '\0');
   std::error_code error;
   if (::_NSGetExecutablePath(name.data(), &size) != 0) return {};
-  return fs::weakly_canonical(to_path(name.c_str()), error).parent_path();
+  return fs::weakly_canonical(to_path(name.c_str()), error);
 }
 
 namespace {
@@ -27,7 +27,7 @@ namespace {
 /// Of the program, or of the library that this code is part of, as in Python.
 fs::path own_folder() {
   Dl_info place{};
-  if (::dladdr(reinterpret_cast<const void*>(&program_folder), &place) == 0) return program_folder();
+  if (::dladdr(reinterpret_cast<const void*>(&program_file), &place) == 0) return program_file().parent_path();
   std::error_code error;
   return fs::weakly_canonical(to_path(place.dli_fname), error).parent_path();
 }

@@ -11,16 +11,16 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
-fs::path program_folder() {
+fs::path program_file() {
   std::wstring name(32768, L'\0');
   name.resize(::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
-  return fs::path(name).parent_path();
+  return fs::path(name);
 }
 
 /// The program stands beside the folder `share`, not in a folder beside it.
 fs::path supplied_folder(const char* variable, const fs::path& installed, const fs::path& source) {
   if (const std::string given = environment(variable); !given.empty()) return to_path(given);
-  const fs::path place = program_folder() / installed.lexically_relative("..");
+  const fs::path place = program_file().parent_path() / installed.lexically_relative("..");
   std::error_code error;
   return fs::exists(place, error) ? place : source;
 }

@@ -99,8 +99,8 @@ class WorkHost {
 
  private:
   Scratch folder_;
-  int control_ = -1;
-  int host_ = -1;  ///< the process
+  [[maybe_unused]] int control_ = -1;
+  [[maybe_unused]] int host_ = -1;  ///< the process, where there is one
   mutable std::mutex mutex_;
 };
 
