@@ -11,9 +11,9 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "store/child_process.h"
+#include "store/program_file.h"
 #include "store/python_package.h"
 #include "store/standard_error.h"
-#include "store/supplied_folder.h"
 
 namespace rheocyte {
 

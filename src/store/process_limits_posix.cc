@@ -7,7 +7,7 @@
 
 #include "store/process_limits.h"
 #include "store/process_limits_of_system.h"
-#include "store/supplied_folder.h"
+#include "store/program_file.h"
 #include "store/thread.h"
 
 namespace rheocyte {

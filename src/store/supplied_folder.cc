@@ -7,13 +7,9 @@
 #include <system_error>
 
 #include "case/to_path.h"
+#include "store/program_file.h"
 
 namespace rheocyte {
-
-std::filesystem::path program_file() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error);
-}
 
 namespace {
 

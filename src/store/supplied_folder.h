@@ -4,9 +4,6 @@
 
 namespace rheocyte {
 
-/// The running program, links resolved.
-std::filesystem::path program_file();
-
 /// Where files that come with the program lie: the folder that an environment variable names, or the installed one
 /// (`installed` is seen from the folder of the program, or of the library that this code is part of), or that of the
 /// sources.

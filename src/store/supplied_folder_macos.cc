@@ -1,26 +1,16 @@
 // Compiled, not run (tools/macos).
 #include <dlfcn.h>
-#include <mach-o/dyld.h>
 
 #include <cstdlib>
-#include <string>
 #include <system_error>
 
 #include "case/to_path.h"
+#include "store/program_file.h"
 #include "store/supplied_folder.h"
 
 namespace rheocyte {
 
 namespace fs = std::filesystem;
-
-fs::path program_file() {
-  std::uint32_t size = 0;
-  ::_NSGetExecutablePath(nullptr, &size);
-  std::string name(size, '\0');
-  std::error_code error;
-  if (::_NSGetExecutablePath(name.data(), &size) != 0) return {};
-  return fs::weakly_canonical(to_path(name.c_str()), error);
-}
 
 namespace {
 

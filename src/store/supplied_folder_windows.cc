@@ -1,21 +1,14 @@
-#include <windows.h>
-
 #include <string>
 #include <system_error>
 
 #include "case/to_path.h"
 #include "store/environment.h"
+#include "store/program_file.h"
 #include "store/supplied_folder.h"
 
 namespace rheocyte {
 
 namespace fs = std::filesystem;
-
-fs::path program_file() {
-  std::wstring name(32768, L'\0');
-  name.resize(::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
-  return fs::path(name);
-}
 
 /// The program stands beside the folder `share`, not in a folder beside it.
 fs::path supplied_folder(const char* variable, const fs::path& installed, const fs::path& source) {
