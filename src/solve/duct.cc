@@ -309,9 +309,8 @@ Geometry duct_geometry(const Problem& problem) {
   duct.gain_of_finer = 1 / 0.85;
 
   duct.rungs = {{{}, 3, problem.offset == 0 ? last_degree : last_degree_off_axis}};
-  duct.fine = {.tolerance = std::min(1e-8, 1e-5 * problem.accuracy),
-               .iteration_limit = problem.offset == 0 ? 5 : 12,
-               .chord_reduction = 0.5};
+  // So that what single precision leaves of the last step is rounding, too; 2 to 4 % of the time.
+  duct.fine = {.tolerance = 1e-10, .iteration_limit = problem.offset == 0 ? 5 : 12, .chord_reduction = 0.5};
   duct.begins_with_way = true;
   duct.adds_lower_change = true;
   duct.errors = {.share_of_change_before = 0.1, .min_of_two = 6e-4};
