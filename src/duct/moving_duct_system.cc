@@ -93,16 +93,19 @@ void MovingDuctSystem::set_history(int e) {
   self.rate = motion_.rate;
   self.history.assign(space().reference().points(), {});
   self.spin = motion_.turning.size() > 0 ? space().spin() : -1;
-  const MatrixXd turning = self.spin >= 0 ? turning_velocity(e) : MatrixXd::Zero(n, 3);
   for (int k = 0; k < 3; ++k) {
-    const MatrixXd slopes = element().at_points(k + 1, displacement), by_spin = element().at_points(k + 1, turning);
+    const MatrixXd slopes = element().at_points(k + 1, displacement);
     // The form knows the place, not the displacement.
-    for (int q = 0; q < slopes.rows(); ++q) {
-      for (int c = 0; c < 3; ++c) {
+    for (int q = 0; q < slopes.rows(); ++q)
+      for (int c = 0; c < 3; ++c)
         self.history[q].velocity_slope(c, k) = slopes(q, c) - motion_.rate * self.undeformed[q].G(c, k);
-        self.history[q].turning(c, k) = by_spin(q, c);
-      }
-    }
+  }
+  if (self.spin < 0) return;
+  const MatrixXd turning = turning_velocity(e);
+  for (int k = 0; k < 3; ++k) {
+    const MatrixXd slopes = element().at_points(k + 1, turning);
+    for (int q = 0; q < slopes.rows(); ++q)
+      for (int c = 0; c < 3; ++c) self.history[q].turning(c, k) = slopes(q, c);
   }
 }
 

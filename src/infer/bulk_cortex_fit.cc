@@ -173,9 +173,11 @@ CellCoordinates BulkCortexFit::with_best_stiffness(ModuliMisfit& misfit, const C
   CellCoordinates best = start;
   double least = HUGE_VAL;
   Eigen::VectorXd residual(misfit.NumResiduals());
+  misfit.set_free({x_progress}, start);
+  const Eigen::VectorXd at_start = misfit.parameters();
   for (const double change_of_logarithm : {0.0, -0.8, -0.4, 0.4, 0.8}) {
-    misfit.set_free({x_progress}, start);
-    const Eigen::VectorXd x = misfit.parameters().array() + change_of_logarithm;
+    misfit.set_free({x_progress}, start);  // each search for a progress begins there
+    const Eigen::VectorXd x = at_start.array() + change_of_logarithm;
     misfit(x.data(), residual.data(), nullptr);
     if (residual.squaredNorm() >= least) continue;
     least = residual.squaredNorm();
