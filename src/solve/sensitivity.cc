@@ -91,9 +91,10 @@ std::optional<MatrixXd> solved_tangent(const Equations& equations, const VectorX
   MatrixXd V = MatrixXd::Zero(rhs.rows(), rhs.cols());
   if (some.empty()) return V;
   const MatrixXd chosen = columns_of(rhs, some);
-  const auto solution = refined_solution(equations, unknowns, chosen.colwise().normalized());
+  const VectorXd norms = chosen.colwise().norm();
+  const auto solution = refined_solution(equations, unknowns, chosen * norms.cwiseInverse().asDiagonal());
   if (!solution) return std::nullopt;
-  V(Eigen::all, some) = *solution * chosen.colwise().norm().asDiagonal();
+  V(Eigen::all, some) = *solution * norms.asDiagonal();
   return V;
 }
 
