@@ -60,12 +60,12 @@ def main():
         runs = [solve(options.program, radius, law, modulus, accuracy) for _ in range(options.runs)]
         result, work = runs[-1], runs[-1]["statistics"]
         time = statistics.median(run["wall_time_s"] for run in runs)
-        share = {key: statistics.median(run["statistics"][key] / run["wall_time_s"] for run in runs)
+        fraction = {key: statistics.median(run["statistics"][key] / run["wall_time_s"] for run in runs)
                  for key in ("assembly_s", "factorisation_s")}
         print(f"| {radius}, {law}, {modulus} | {accuracy:.0e} | {result['deformation']:.8f} "
               f"| {result['estimated_error']:.1e} | {abs(result['deformation'] / exact - 1):.1e} | {time:.3f} "
               f"| {result['unknowns']} | {work['degree']} | {result['newton_iterations']} | {work['factorisations']} "
-              f"| {share['assembly_s']:.0%} | {share['factorisation_s']:.0%} |")
+              f"| {fraction['assembly_s']:.0%} | {fraction['factorisation_s']:.0%} |")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 // check_combined TABLE-FOLDER RESULT-FOLDERS...
 //
 // The results are of `rheocyte solve` in the table's channel, at the tension of the table's first sheets. Compared are
-// stiffness, modes and outline at the cell's radius, share and deformation, the outline of a virtual cell of these
+// stiffness, modes and outline at the cell's radius, fraction and deformation, the outline of a virtual cell of these
 // moduli, and the moduli that the exact contour gives. (Moduli from pixels: `rheocyte synth`, round_trip_moduli.)
 // Without results: by how much the two descriptions of the errors of pixels differ on the table's cells.
 #include <fmt/format.h>
@@ -155,16 +155,18 @@ struct Comparison {
 
 constexpr double pixel_um = 0.34;
 
-/// Rendered errors and the fitted law (measurement/pixel_errors.h) at cells of one share, deformation by deformation.
+/// Rendered errors and the fitted law (measurement/pixel_errors.h) at cells of one fraction, deformation by
+/// deformation.
 void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedErrors& rendered) {
   constexpr int area = int(ShapeFeature::area_um2), deformation = int(ShapeFeature::deformation);
-  fmt::print("share d: bias of ln A rendered, fitted; of d; standard deviation of ln A; of d (means over the radii)\n");
-  for (const double share : {0.0, 0.5, 1.0})
+  fmt::print(
+      "fraction d: bias of ln A rendered, fitted; of d; standard deviation of ln A; of d (means over the radii)\n");
+  for (const double fraction : {0.0, 0.5, 1.0})
     for (const double d : {0.003, 0.01, 0.02, 0.04}) {
       Eigen::Array<double, 8, 1> sum = Eigen::Array<double, 8, 1>::Zero();
       int count = 0;
       for (const double radius : {4.5, 5.5, 6.5, 7.5}) {
-        const CellCoordinates cell(std::log(radius), share, std::log(d), table.tension_ratios().front(), 0.0);
+        const CellCoordinates cell(std::log(radius), fraction, std::log(d), table.tension_ratios().front(), 0.0);
         const CombinedState state = table.at(cell);
         if (!state.inside) continue;
         const ShapeErrors errors = rendered.at(cell);
@@ -180,7 +182,7 @@ void print_errors_of_pixels(const CombinedInterpolation& table, const RenderedEr
       }
       if (count == 0) continue;
       sum /= count;
-      fmt::print("{} {}: {:.4f} {:.4f}; {:.5f} {:.5f}; {:.4f} {:.4f}; {:.5f} {:.5f}\n", share, d, sum(0), sum(1),
+      fmt::print("{} {}: {:.4f} {:.4f}; {:.5f} {:.5f}; {:.4f} {:.4f}; {:.5f} {:.5f}\n", fraction, d, sum(0), sum(1),
                  sum(2), sum(3), sum(4), sum(5), sum(6), sum(7));
     }
 }

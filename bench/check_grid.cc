@@ -26,7 +26,7 @@ using namespace rheocyte;
 
 void print_differences(const char* what, const std::vector<double>& all) {
   if (all.empty()) return;
-  const auto at = [&](double share) { return quantile(all, share); };
+  const auto at = [&](double fraction) { return quantile(all, fraction); };
   fmt::print("{}: {} points, median {:.1e}, 95 % {:.1e}, 99.9 % {:.1e}, greatest {:.1e}\n", what, all.size(), at(0.5),
              at(0.95), at(0.999), at(1));
 }

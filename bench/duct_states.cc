@@ -128,24 +128,25 @@ Cell random_cell(std::mt19937& random) {
 void check_estimates(int count, unsigned seed) {
   constexpr double wanted = 1e-3, reference = 3e-5;
   std::mt19937 random(seed);
-  std::vector<double> shares;
+  std::vector<double> fractions;
   fmt::print("| r0/h | law | n | mu/S | d | estimated | true error | true / estimated | degrees |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
-  while (int(shares.size()) < count) {
+  while (int(fractions.size()) < count) {
     const Cell cell = random_cell(random);
     const StationaryState state = solve_stationary(cell.problem(wanted));
     if (state.outcome.status != Status::converged) continue;  // beyond the end of its branch
     const StationaryState fine = solve_stationary(cell.problem(reference));
     const double error = std::abs(state.shape.deformation / fine.shape.deformation - 1);
-    shares.push_back(error / state.estimated_error);
+    fractions.push_back(error / state.estimated_error);
     print_cell(cell);
     fmt::print("| {:.6g} | {:.1e} | {:.1e} | {:.2f} | {} / {} ({:.0e}) |\n", state.shape.deformation,
-               state.estimated_error, error, shares.back(), degrees_of(state), degrees_of(fine), fine.estimated_error);
+               state.estimated_error, error, fractions.back(), degrees_of(state), degrees_of(fine),
+               fine.estimated_error);
     std::fflush(stdout);
   }
-  const auto honest = std::ranges::count_if(shares, [](double share) { return share < 2; });
+  const auto honest = std::ranges::count_if(fractions, [](double fraction) { return fraction < 2; });
   fmt::print("\n{} of {} below twice the stated error; at most {:.2f} times\n", honest, count,
-             *std::ranges::max_element(shares));
+             *std::ranges::max_element(fractions));
 }
 
 void check_first_estimates(int count, unsigned seed) {

@@ -56,18 +56,18 @@ class Cells {
       CellCoordinates cell;
       for (int x = 0; x < coordinate_count; ++x)
         cell(x) = std::uniform_real_distribution(box.least(x), box.greatest(x))(engine_);
-      if (!has_cortex) cell(x_share) = box.least(x_share);
+      if (!has_cortex) cell(x_fraction) = box.least(x_fraction);
       if (!free_tension) cell(x_ratio) = box.least(x_ratio);
       if (between_.is_inside(cell)) return cell;
     }
   }
 
  private:
-  CellCoordinates near(const CellCoordinates& cell, double share_of_range) {
+  CellCoordinates near(const CellCoordinates& cell, double fraction_of_range) {
     const CellBox& box = between_.box();
     CellCoordinates start = cell;
     for (int x = 0; x < coordinate_count; ++x)
-      start(x) += share_of_range * normal_(engine_) * (box.greatest(x) - box.least(x));
+      start(x) += fraction_of_range * normal_(engine_) * (box.greatest(x) - box.least(x));
     return start.cwiseMax(box.least).cwiseMin(box.greatest);
   }
 

@@ -26,8 +26,8 @@ namespace {
 using namespace rheocyte;
 
 constexpr double wanted_accuracies[] = {1e-2, 1e-3, 1e-4};
-/// Differences below this share of a number are rounding and the tolerance of Newton's method.
-constexpr double share_of_rounding = 3e-9;
+/// Differences below this fraction of a number are rounding and the tolerance of Newton's method.
+constexpr double fraction_of_rounding = 3e-9;
 
 /// A number of one state, and what it is on the finest resolution.
 struct Compared {
@@ -116,7 +116,7 @@ struct Honesty {
   /// else it does not tell the true error.
   void add(const Compared& number) {
     const double error = number.true_error();
-    if (error <= share_of_rounding * number.size() || number.error_of_finest > 1.5 * error) return;
+    if (error <= fraction_of_rounding * number.size() || number.error_of_finest > 1.5 * error) return;
     true_over_stated.push_back(error / number.stated);
   }
   std::ptrdiff_t above(double limit) const {

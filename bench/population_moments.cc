@@ -170,7 +170,7 @@ void print(int seed, const CombinedPopulation& found, const std::vector<Told>& a
   fmt::print("{:3}", seed);
   for (const Told& told : all)
     fmt::print(" {:+.4f}({:+.1f})", told.value - told.truth, (told.value - told.truth) / told.standard_error);
-  fmt::print(" kept {:.2f}", found.kept_share);
+  fmt::print(" kept {:.2f}", found.kept_fraction);
   for (int a = 0; a < combined_parameters; ++a)
     fmt::print(" {:.3f}{}", found.fit.parameters(a), found.fit.at_bound[std::size_t(a)] ? "!" : "");
   fmt::print("\n");

@@ -160,8 +160,8 @@ def null(bench, arguments):
         rejected += record["comparisons"][0]["p"] < 0.05
         for file in (*files[0], *files[1]):
             file.unlink()
-    share = rejected / arguments.recordings
-    print(f"null: p < 0.05 in {rejected} of {arguments.recordings} experiments, {100 * share:.1f} +- "
+    fraction = rejected / arguments.recordings
+    print(f"null: p < 0.05 in {rejected} of {arguments.recordings} experiments, {100 * fraction:.1f} +- "
           f"{100 * math.sqrt(0.05 * 0.95 / arguments.recordings):.1f} %")
 
 
@@ -186,7 +186,7 @@ def moduli_of_events(bench, file):
 
 
 def rejected_at_equal_size(nulls, others):
-    """Share of p among the others below the p that 5 % of the nulls are below: power after the size is set to 5 %, which
+    """Fraction of p among the others below the p that 5 % of the nulls are below: power after the size is set to 5 %, which
     takes some hundred nulls; of fewer than 20 it is set to that of the least one."""
     limit = sorted(nulls)[max(int(0.05 * len(nulls)) - 1, 0)]
     return sum(p <= limit for p in others) / len(others)

@@ -23,7 +23,7 @@ def describe(name, difference):
 
 
 def without_polygon(points, rows):
-    """Differences after the share of an inscribed polygon, (pi^2 / 6) / M^2, is taken from the published deformations.
+    """Differences after the fraction of an inscribed polygon, (pi^2 / 6) / M^2, is taken from the published deformations.
 
     Returns the differences, the length of the polygon's sides in um that fits best, and a factor of all deformations.
     """

@@ -20,12 +20,12 @@ void report(const char* file) {
   const auto feature_of_error = recording.metadata().text("user:rheocyte standard error");
   const auto modulus = column(recording, "emodulus"), error = column(recording, feature_of_error.value_or("").c_str()),
              truth = column(recording, "userdef2"), deformation = column(recording, "userdef4");
-  std::vector<double> bias, share, depth;
+  std::vector<double> bias, fraction, depth;
   int covered = 0, within = 0;
   for (std::size_t i = 0; i < modulus.size(); ++i) {
     if (!std::isfinite(modulus[i])) continue;
     bias.push_back(100 * (modulus[i] / truth[i] - 1));
-    share.push_back(100 * error[i] / modulus[i]);
+    fraction.push_back(100 * error[i] / modulus[i]);
     depth.push_back(deformation[i]);
     covered += std::abs(modulus[i] - truth[i]) < 1.6449 * error[i];
     within += std::abs(modulus[i] - truth[i]) < error[i];
@@ -36,7 +36,7 @@ void report(const char* file) {
       "standard "
       "error {:.1f} %, in the 90 % interval {:.1f} %, in the 68 % interval {:.1f} %\n",
       file, bias.size(), modulus.size(), quantile(depth, 0.5), quantile(depth, 0.05), quantile(depth, 0.95),
-      quantile(bias, 0.5), quantile(bias, 0.05), quantile(bias, 0.95), quantile(share, 0.5), 100 * covered / n,
+      quantile(bias, 0.5), quantile(bias, 0.05), quantile(bias, 0.95), quantile(fraction, 0.5), 100 * covered / n,
       100 * within / n);
 }
 

@@ -3,7 +3,7 @@
 //
 // The dynamic table in DIR shows virtual cells at four places; they are drawn into masks of pixels, whose contours give
 // back single cells from all over the table, and populations of random medians. Times 3 viscosity / E of 0.1 to 5 ms.
-// With an AXIAL_RATIO each cell is followed through the channel under a tension of up to this share of its modulus,
+// With an AXIAL_RATIO each cell is followed through the channel under a tension of up to this fraction of its modulus,
 // which does not change along the channel: about half a second a cell.
 #include <fmt/format.h>
 

@@ -38,7 +38,7 @@ Problem problem_at(const Sliders& s, double accuracy) {
   Problem problem;
   problem.radius_ratio = s.radius_um / tube_um;
   problem.bulk.law = BulkLaw::linear;
-  problem.bulk.mooney_share = 0;
+  problem.bulk.c1_fraction = 0;
   problem.bulk.shear_modulus = 1e3 * s.E_kPa / (3 * S);
   problem.cortex.tension = 1e-3 * s.tension_mN_per_m / (S * R);
   problem.accuracy = accuracy;
@@ -80,7 +80,7 @@ void refusals() {
   for (int i = 0; i < 40; ++i) {
     Sliders sliders{.E_kPa = std::pow(10, -2 + 1.3 * uniform(random)), .radius_um = 3.5 + 6 * uniform(random)};
     Problem problem = problem_at(sliders, 1e-4);
-    if (i % 2) problem.bulk.law = BulkLaw::neo_hookean, problem.bulk.mooney_share = 1;
+    if (i % 2) problem.bulk.law = BulkLaw::neo_hookean, problem.bulk.c1_fraction = 1;
     const double start = processor_ms();
     const StationaryState state = solve_stationary(problem);
     times.push_back(processor_ms() - start);

@@ -39,13 +39,13 @@ PATIENCE_S = 6  # of processor time; cells at the end of their branch take minut
 
 
 class Cell:
-    """At random: radius over half the width, share of the cortex, its tension over its modulus, the liquid's over S, the
+    """At random: radius over half the width, fraction of the cortex, its tension over its modulus, the liquid's over S, the
     liquid's exponent, and S over the stress at the wall."""
 
     def __init__(self, number):
         random = np.random.default_rng([13, number])
         self.radius = random.uniform(0.40, 0.80)
-        self.share = random.choice([0, random.uniform(0, 0.75), random.uniform(0.75, 1)], p=[0.08, 0.8, 0.12])
+        self.fraction = random.choice([0, random.uniform(0, 0.75), random.uniform(0.75, 1)], p=[0.08, 0.8, 0.12])
         self.axial = random.choice([0, random.uniform(-0.06, 1)], p=[0.15, 0.85])
         # A cortex without tension, drawn out, wrinkles in the middle: combined tables begin at 0.11.
         self.tension = random.uniform(0.1, 0.85)
@@ -56,16 +56,16 @@ class Cell:
         if number >= STIFF_CELLS:  # c3 is then evenly distributed
             self.stiffness = 1 / random.uniform(1 / 6, 1 / 1.4)
         if number >= ALL_CELLS:
-            self.radius, self.share, self.axial = random.uniform(0.55, 0.72), random.uniform(0.2, 0.75), random.uniform(0.1, 0.8)
+            self.radius, self.fraction, self.axial = random.uniform(0.55, 0.72), random.uniform(0.2, 0.75), random.uniform(0.1, 0.8)
             self.tension, self.exponent = random.uniform(0.2, 0.85), random.choice([1, random.uniform(0.55, 0.75)], p=[0.2, 0.8])
             self.stiffness = random.uniform(1.5, 4)
         if number >= MORE_ELONGATED_FROM:
-            self.radius, self.share, self.axial = random.uniform(0.5, 0.76), random.uniform(0.15, 0.75), random.uniform(0, 1.4)
+            self.radius, self.fraction, self.axial = random.uniform(0.5, 0.76), random.uniform(0.15, 0.75), random.uniform(0, 1.4)
             self.tension, self.stiffness = random.uniform(0.5, 1.6), random.uniform(0.5, 3)
 
     def case(self, section):
         stress = self.stiffness * WALL_STRESS_PA
-        cortex_mN_per_m = self.share * stress * self.radius * WIDTH_UM / 2 * 1e-3
+        cortex_mN_per_m = self.fraction * stress * self.radius * WIDTH_UM / 2 * 1e-3
         flow = {"rate_ul_per_s": RATE_UL_S, "axial_tension_Pa": self.axial * stress}
         if section == "tube" or self.exponent == 1:
             flow["viscosity_mPas"] = VISCOSITY_MPAS
@@ -74,9 +74,9 @@ class Cell:
             flow |= {"law": "power-law", "exponent": self.exponent,
                      "consistency_Pa_sn": 1e-3 * VISCOSITY_MPAS * shear_rate ** (1 - self.exponent)}
         cell = {"radius_um": self.radius * WIDTH_UM / 2, "bulk": {"law": "none"}}
-        if self.share < 1:
-            cell["bulk"] = {"law": "neo-hookean", "young_modulus_kPa": (1 - self.share) * stress * 1e-3}
-        if self.share > 0:
+        if self.fraction < 1:
+            cell["bulk"] = {"law": "neo-hookean", "young_modulus_kPa": (1 - self.fraction) * stress * 1e-3}
+        if self.fraction > 0:
             cell["cortex"] = {"law": "neo-hookean-reference", "modulus_mN_per_m": cortex_mN_per_m,
                               "tension_mN_per_m": self.tension * cortex_mN_per_m, "bending_kBT": BENDING_KBT[section]}
         return {"channel": {"section": section, "width_um": WIDTH_UM}, "flow": flow, "cell": cell,
@@ -119,9 +119,9 @@ def solve_cells(file, cells, workers):
 def in_table(found, options):
     """Features of the cells by the table; of those outside it by the tube."""
     def line(cell):
-        young = (1 - cell.share) * cell.stiffness * WALL_STRESS_PA * 1e-3
+        young = (1 - cell.fraction) * cell.stiffness * WALL_STRESS_PA * 1e-3
         radius_um = cell.radius * WIDTH_UM / 2
-        cortex = cell.share * cell.stiffness * WALL_STRESS_PA * 1e-3 * radius_um
+        cortex = cell.fraction * cell.stiffness * WALL_STRESS_PA * 1e-3 * radius_um
         return f"{radius_um} {young} {cortex} {cell.tension} {cell.axial * cell.stiffness * WALL_STRESS_PA}"
 
     lines = "\n".join(line(Cell(one["number"])) for one in found)
@@ -141,8 +141,8 @@ def changes(found, options):
     square = np.array([one["square"] for one in found])
     radius = np.sqrt(square[:, 0] / math.pi) / (WIDTH_UM / 2)
     square[:, 0] = np.log(square[:, 0])
-    numbers = np.stack([radius, square[:, MODE_2], square[:, MODE_3], [c.share for c in cells],
-                        [c.share * c.tension for c in cells], [1 - c.exponent for c in cells]], axis=1)
+    numbers = np.stack([radius, square[:, MODE_2], square[:, MODE_3], [c.fraction for c in cells],
+                        [c.fraction * c.tension for c in cells], [1 - c.exponent for c in cells]], axis=1)
     features, is_inside = in_table(found, options)
     return numbers, square - features, is_inside
 

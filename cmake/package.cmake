@@ -1,6 +1,6 @@
 # What `cmake --install` and `cpack` add beside program, tables and pictures: man pages and completions made from the help,
 # documents and examples. cpack -G DEB makes a package for Debian 12.
-set(generated_share ${CMAKE_BINARY_DIR}/share)
+set(generated_share ${CMAKE_BINARY_DIR}/fraction)
 add_custom_command(OUTPUT ${generated_share}/man/man1/rheocyte.1.gz
                    COMMAND ${RHEOCYTE_PYTHON_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/man_pages $<TARGET_FILE:rheocyte>
                            ${generated_share}

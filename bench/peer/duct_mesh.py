@@ -86,17 +86,17 @@ def outer_triangles(mesh, n):
             yield corners
 
 
-def add_layers(mesh, triangles, names, point, shares, region):
-    """Prisms between two images of the triangles, cut at the shares; vertices of both are (name, key), or key for None.
+def add_layers(mesh, triangles, names, point, fractions, region):
+    """Prisms between two images of the triangles, cut at the fractions; vertices of both are (name, key), or key for None.
 
-    `point(key, share)` is a place on the spoke of a key.
+    `point(key, fraction)` is a place on the spoke of a key.
     """
     def at(key, layer):
-        name = names[0] if layer == 0 else names[1] if layer == len(shares) - 1 else (names, layer)
-        return mesh.vertex((name, key) if name else key, point(key, shares[layer]))
+        name = names[0] if layer == 0 else names[1] if layer == len(fractions) - 1 else (names, layer)
+        return mesh.vertex((name, key) if name else key, point(key, fractions[layer]))
 
     for triangle in triangles:
-        for layer in range(len(shares) - 1):
+        for layer in range(len(fractions) - 1):
             mesh.prism([at(c, layer) for c in triangle], [at(c, layer + 1) for c in triangle], region)
 
 
@@ -120,9 +120,9 @@ def duct_mesh(radius, n, rings, layers, growth, channel, end):
     def on_box(key):
         return box * key[0] / n, key[1] / n, key[2] / n
 
-    def in_channel(key, share):
+    def in_channel(key, fraction):
         x, y, z = on_box(key)
-        return x + math.copysign((end - 0.6) * share, x), y, z
+        return x + math.copysign((end - 0.6) * fraction, x), y, z
 
     cores = {key: mesh.points[number] for key, number in mesh.numbers.items()}
     add_layers(mesh, triangles, (None, "surface"), lambda key, s: between(cores[key], on_sphere(key), s),

@@ -69,7 +69,7 @@ async function statistics(value) {
 
 const summary = (times) => {
   const sorted = [...times].sort((a, b) => a - b);
-  const at = (share) => sorted[Math.floor(share * (times.length - 1))].toFixed(0);
+  const at = (fraction) => sorted[Math.floor(fraction * (times.length - 1))].toFixed(0);
   return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms`;
 };
 

@@ -56,7 +56,7 @@ for (const drags of [true, false]) {
   const before = await processorTime();
   const times = (await page.evaluate(measure, { count: moves, drags })).sort((a, b) => a - b);
   const own = (await processorTime()) - before;
-  const at = (share) => times[Math.min(times.length - 1, Math.floor(share * times.length))].toFixed(0);
+  const at = (fraction) => times[Math.min(times.length - 1, Math.floor(fraction * times.length))].toFixed(0);
   console.log(`${drags ? 'dragged' : 'jumps'}, slider to contour over ${moves} moves: median ${at(0.5)} ms, 95 % ${at(0.95)} ms, greatest ${at(1)} ms`);
   console.log(`    the page's own work: ${((1000 * own) / moves).toFixed(0)} ms of processor time a move`);
 }

@@ -161,14 +161,14 @@ test('a gate on a computed modulus is no option of the command that computes it'
   assert.deepEqual(gatesWithoutOption([area, modulus, { ...polygon, on: false }]), [modulus]);
 });
 
-test('the contours enclose the shares of the events that they state', () => {
+test('the contours enclose the fractions of the events that they state', () => {
   const [xs, ys] = [normal(40000, 11), normal(40000, 23)];
   const density = new Density(placesOf(xs, ys, 'linear', 'linear'), null, { low: -5, high: 5 }, { low: -5, high: 5 });
-  for (const share of [0.5, 0.95]) {
-    const [level] = levelsEnclosing(density, [share]);
+  for (const fraction of [0.5, 0.95]) {
+    const [level] = levelsEnclosing(density, [fraction]);
     let within = 0;
     for (let i = 0; i < xs.length; ++i) if (density.at(xs[i], ys[i]) >= level) ++within;
-    assert.ok(Math.abs(within / xs.length - share) < 0.02, `${within / xs.length}`); // smoothing widens by less
+    assert.ok(Math.abs(within / xs.length - fraction) < 0.02, `${within / xs.length}`); // smoothing widens by less
   }
 });
 

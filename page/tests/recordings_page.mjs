@@ -18,7 +18,7 @@ export const drawn = (page, plot = 1) => page.locator(`[data-plot="${plot}"] can
 
 export const plotOf = (page, plot = 1) => page.locator(`[data-plot="${plot}"]`);
 
-/** Pixel of a place within the plot, by shares of its frame from the left and from above. */
+/** Pixel of a place within the plot, by fractions of its frame from the left and from above. */
 export async function pixelIn(page, right, down, plot = 1) {
   const box = await page.locator(`[data-plot="${plot}"] canvas`).boundingBox();
   return { x: box.x + right * box.width, y: box.y + down * box.height };

@@ -21,10 +21,10 @@ async function makeFingers(page) {
 /** Two fingers about a place, from one distance to another, and moved meanwhile. */
 async function pinch(page, { x, y }, from, to, by = { x: 0, y: 0 }) {
   const touch = await makeFingers(page);
-  const pair = (distance, share) => [-1, 1].map((side) => ({ x: x + share * by.x + (side * distance) / 2, y: y + share * by.y }));
+  const pair = (distance, fraction) => [-1, 1].map((side) => ({ x: x + fraction * by.x + (side * distance) / 2, y: y + fraction * by.y }));
   await touch('touchStart', pair(from, 0)[0]);
   await touch('touchStart', ...pair(from, 0));
-  for (const share of [0.25, 0.5, 0.75, 1]) await touch('touchMove', ...pair(from + share * (to - from), share));
+  for (const fraction of [0.25, 0.5, 0.75, 1]) await touch('touchMove', ...pair(from + fraction * (to - from), fraction));
   await touch('touchEnd', pair(to, 1)[0]);
   await touch('touchEnd');
 }
@@ -32,7 +32,7 @@ async function pinch(page, { x, y }, from, to, by = { x: 0, y: 0 }) {
 async function dragFinger(page, from, to) {
   const touch = await makeFingers(page);
   await touch('touchStart', from);
-  for (const share of [0.3, 0.6, 1]) await touch('touchMove', { x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y) });
+  for (const fraction of [0.3, 0.6, 1]) await touch('touchMove', { x: from.x + fraction * (to.x - from.x), y: from.y + fraction * (to.y - from.y) });
   await touch('touchEnd');
 }
 

@@ -32,7 +32,7 @@ def analytic(radius_um, *, young_modulus_kPa=None, cortex_modulus_mN_per_m=None,
     """Shape, velocity and pressure drop of a little deformed cell in closed form (docs/theory-analytic.md).
 
     young_modulus_kPa           of a solid, or
-    cortex_modulus_mN_per_m     of a shell, with its tension as a share of it, tension_ratio (0.1)
+    cortex_modulus_mN_per_m     of a shell, with its tension as a fraction of it, tension_ratio (0.1)
     channel_width_um            of the square channel (20), or tube_radius_um
     square_duct                 take the velocity on the axis of the square channel, as published analytical tables do
 

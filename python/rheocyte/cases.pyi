@@ -41,13 +41,13 @@ class _Flow:
 class _CellBulk:
     law: Literal["linear", "neo-hookean", "mooney-rivlin", "none"]  # elastic law of the cell's interior, none: a liquid, which makes the cell a shell
     young_modulus_kPa: float | None  # Young's modulus of the cell's interior, which is incompressible
-    mooney_share: float | None  # share of the neo-hookean law in the mooney-rivlin one, the rest is linear
+    c1_fraction: float | None  # fraction of the neo-hookean law in the mooney-rivlin one, the rest is linear
 
 class _CellCortex:
     law: Literal["none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference", "skalak"]  # elastic law of the cell's surface, the cortex
     modulus_mN_per_m: float | None  # elastic modulus E2D of the cortex, Young's modulus x thickness
     tension_mN_per_m: float | None  # surface tension of the cell
-    tension_ratio: float | None  # surface tension as a share of the modulus of the cortex
+    tension_ratio: float | None  # surface tension as a fraction of the modulus of the cortex
     bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)
 
 class _Cell:

@@ -26,7 +26,7 @@ class Density:
 
     The kernel is normal; its width is 0.8 n^(-1/6) times the robust spread of each coordinate: somewhat less than Scott's
     rule, for recordings often hold several kinds of cells. `values[i, j]` belongs
-    to (self.x[j], self.y[i]); its integral is the share of the points that lie in the rectangle.
+    to (self.x[j], self.y[i]); its integral is the fraction of the points that lie in the rectangle.
     """
 
     def __init__(self, x, y, rectangle):
@@ -52,9 +52,9 @@ class Density:
         return ((1 - t) * ((1 - s) * v[i, j] + s * v[i, j + 1]) + t * ((1 - s) * v[i + 1, j] + s * v[i + 1, j + 1]))
 
 
-def levels_enclosing(densities, shares):
-    """The densities above which the given shares of the events lie, from their densities."""
-    return [float(np.quantile(densities, 1 - share)) for share in shares]
+def levels_enclosing(densities, fractions):
+    """The densities above which the given fractions of the events lie, from their densities."""
+    return [float(np.quantile(densities, 1 - fraction)) for fraction in fractions]
 
 
 def thinned(densities, greatest_number, seed=1):

@@ -203,8 +203,8 @@ def visible_part(points, rectangle):
     part = points[first:last]
     if last < len(points):
         a, b = points[last - 1], points[last]
-        share = min(1.0, *((limit - a[k]) / (b[k] - a[k]) for k, limit in ((0, right), (1, top)) if b[k] > limit))
-        part = np.vstack([part, a + share * (b - a)])
+        fraction = min(1.0, *((limit - a[k]) / (b[k] - a[k]) for k, limit in ((0, right), (1, top)) if b[k] > limit))
+        part = np.vstack([part, a + fraction * (b - a)])
     return part
 
 

@@ -207,9 +207,9 @@ class Stiffness(Patch):
         self.error = np.maximum.reduce([error[:-1, :-1], error[1:, :-1], error[:-1, 1:], error[1:, 1:]])
         self.beyond = unpacked(record["beyond"], -1)
 
-    def answer(self, column, share, log_deformation):
+    def answer(self, column, fraction, log_deformation):
         """ln(kPa), its slopes by columns and by ln(deformation), and the relative error."""
-        weights, changes = hermite(share), hermite_slope(share)
+        weights, changes = hermite(fraction), hermite_slope(fraction)
         (lower, upper), (lower_change, upper_change) = self.borders(column, weights), self.borders(column, changes)
         rows_per_height = (self.rows - 1) / (upper - lower)
         height = (log_deformation - lower) * rows_per_height
@@ -264,17 +264,17 @@ class Table:
         is_open = state == TOO_STIFF
         place = np.where(is_open, place, 0)
         column = np.minimum(place.astype(int), self.columns - 2)
-        share = place - column
+        fraction = place - column
         for patch in self.patches:
             own = column - patch.first_column
             here = np.flatnonzero(is_open & (own >= 0) & (own < patch.columns - 1))
             own, height = own[here], log_deformation[here]
-            lower, upper = patch.borders(own, hermite(share[here]))
+            lower, upper = patch.borders(own, hermite(fraction[here]))
             is_inside, is_above = (lower <= height) & (height <= upper), height > upper
             take, above = here[is_inside], here[is_above]
-            found[:, take] = patch.answer(own[is_inside], share[take], height[is_inside])
+            found[:, take] = patch.answer(own[is_inside], fraction[take], height[is_inside])
             state[take] = REGULARISED if patch.regularised else VALID
-            state[above] = patch.beyond[own[is_above] + (share[above] > 0.5)]
+            state[above] = patch.beyond[own[is_above] + (fraction[above] > 0.5)]
             is_open[here[~is_above]] = False
         found[1] /= self.step
         return found, state

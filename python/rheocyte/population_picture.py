@@ -142,8 +142,8 @@ def shortened(name):
 def name_places(axes, names):
     """Words below the places 0, 1, ...; slanted where they would lie on one another."""
     slots = axes.get_subplotspec().get_gridspec()
-    share = (slots.get_width_ratios() or [1] * slots.ncols)[axes.get_subplotspec().colspan.start]
-    width = 0.8 * 72 * axes.figure.get_size_inches()[0] * share / sum(slots.get_width_ratios() or [1] * slots.ncols)
+    fraction = (slots.get_width_ratios() or [1] * slots.ncols)[axes.get_subplotspec().colspan.start]
+    width = 0.8 * 72 * axes.figure.get_size_inches()[0] * fraction / sum(slots.get_width_ratios() or [1] * slots.ncols)
     longest = max(len(line) for name in names for line in name.split("\n"))
     is_crowded = longest * POINTS_OF_LETTER * len(names) > width
     axes.set_xticks(range(len(names)), names)
@@ -293,8 +293,8 @@ def how_known(story):
 def legend_below(figure, entries, columns, **style):
     """A legend below all axes, for which the layout leaves room: matplotlib 3.6 knows no place "outside"."""
     points, height = 5.8, figure.get_size_inches()[1]
-    share = (-(-len(entries) // columns) * 1.5 * points / 72 + 0.05) / height
-    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    fraction = (-(-len(entries) // columns) * 1.5 * points / 72 + 0.05) / height
+    figure.get_layout_engine().set(rect=(0, fraction, 1, 1 - fraction))
     figure.legend(handles=entries, loc="lower center", ncols=columns, frameon=False, fontsize=points, **style)
 
 
@@ -315,7 +315,7 @@ def draw_checks(record):
     for axes in list(panels.flat)[len(measures):]:
         axes.set_visible(False)
     for axes in panels[-1]:
-        axes.set_xlabel("share of the events below")
+        axes.set_xlabel("fraction of the events below")
     for axes in panels[:, 0]:
         axes.set_ylabel("predicted \u2212 measured\n(in spreads)")
     legend_below(figure, [Line2D([], [], color=story.colour(name), label=name) for name in story.names],
@@ -330,13 +330,13 @@ def check_of(recording, measure):
 
 def draw_measure(axes, story, measure, checks):
     """A line for each recording; flat at 0 if the fitted cells are the measured ones."""
-    shares = np.arange(1, 20) * 0.05
+    fractions = np.arange(1, 20) * 0.05
     known = [(recording, check) for recording, check in checks if check]
     axes.axhspan(-0.2, 0.2, color=BAND, zorder=0, linewidth=0)
     axes.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
     for recording, check in known:
         off = np.subtract(check["predicted_quantiles"], check["measured_quantiles"]) / (check["spread"] or 1)
-        axes.plot(shares, off, color=story.colour(recording["condition"]), linewidth=0.8 if check["fits"] else 1.4,
+        axes.plot(fractions, off, color=story.colour(recording["condition"]), linewidth=0.8 if check["fits"] else 1.4,
                   linestyle="-" if check["fits"] else (0, (3, 1.2)), zorder=2)
     misfits = sum(not check["fits"] for _, check in known)
     fitted = known and known[0][1]["fitted"]

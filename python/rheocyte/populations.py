@@ -17,7 +17,7 @@ class Population:
 
     recordings      pandas.DataFrame, one row per recording: condition, session, recording, events (that were fitted),
                     young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
-                    correlation, kept_share (by the gates), fits (whether there are numbers and all checks hold), failure
+                    correlation, kept_fraction (by the gates), fits (whether there are numbers and all checks hold), failure
     conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
                     scatter of the recordings), spreads, radius_um; stiffening with its ends (the exponent of E over the
                     stress, of recordings at several flow rates)
@@ -119,7 +119,7 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
                     what is compared; without rates those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
 
     Returns a pandas.DataFrame with one row per channel: speed, viscosity, stress at the wall, deformation and mode_3 of the
-    median cell, share of the cells inside the table, the error of ln E by one image, sessions that are needed (inf: more than
+    median cell, fraction of the cells inside the table, the error of ln E by one image, sessions that are needed (inf: more than
     100; NaN: the table has no such cells).
     attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense.
     """
@@ -191,7 +191,7 @@ def _recording_row(record, several):
            "events": record["events"]["fitted"], **_moduli(found, several), "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
     if several is None:
         row["correlation"] = found.get("correlation", np.nan)
-    row["kept_share"] = found.get("kept_share", np.nan)
+    row["kept_fraction"] = found.get("kept_fraction", np.nan)
     fits = not record["failure"] and all(check["fits"] for check in record["checks"])
     return {**row, "fits": fits, "failure": record["failure"] or ""}
 

@@ -11,7 +11,7 @@ def told_to(progress):
 
 
 class progress_bar:
-    """A function of the share that is done: the caller's, a bar of tqdm, or none."""
+    """A function of the fraction that is done: the caller's, a bar of tqdm, or none."""
 
     def __init__(self, progress):
         self._call, self._bar = None if isinstance(progress, bool) else told_to(progress), None
@@ -21,7 +21,7 @@ class progress_bar:
             except ImportError:
                 return
             self._bar = tqdm(total=100, unit="%")
-            self._call = lambda share: self._bar.update(100 * share - self._bar.n)
+            self._call = lambda fraction: self._bar.update(100 * fraction - self._bar.n)
 
     def __enter__(self):
         return self._call

@@ -23,12 +23,12 @@ def extract(recording, *, progress=None, **settings):
     recording       path of an .rtdc file, or an open dclab dataset: its own events (those of a child are the rows) and
                     metadata are taken, also where they are not those of its file
     {settings}
-    progress        called with the share that is done; True: a bar of tqdm where it is installed
+    progress        called with the fraction that is done; True: a bar of tqdm where it is installed
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
     standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
     contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
-    odd_share (of the deformation). With contours or masks: mode_3, sine_mode_2 .. sine_mode_4 and flank_slope (how the
+    odd_fraction (of the deformation). With contours or masks: mode_3, sine_mode_2 .. sine_mode_4 and flank_slope (how the
     outline lies to the flow), and by the table of elongated cells young_modulus_asymmetry_kPa,
     standard_error_asymmetry_kPa, elongation (length over width that the liquid's tension alone would give the cell),
     axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
@@ -143,7 +143,7 @@ def synth(spec, file, *, replace=False, progress=None, **overrides):
 
     spec            path of a TOML file, or a dictionary with its keys, nested or dotted (`rheocyte help synth`)
     file            the recording; replace: one that is there already
-    progress        called with the share that is done; True: a bar of tqdm where it is installed
+    progress        called with the fraction that is done; True: a bar of tqdm where it is installed
     overrides       keys that replace those of the spec, with two underscores for each dot: recording__cells=1000
 
     The features userdef1 to userdef6 (userdef9 with recording.places_um) hold the true values. Returns the number of

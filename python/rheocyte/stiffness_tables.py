@@ -38,7 +38,7 @@ class Shapes(NamedTuple):
     expected: np.ndarray  # inertia ratio of the table's cell of this area and deformation
     excess: np.ndarray  # measured - expected inertia ratio
     standard_error: np.ndarray  # of the excess, by pixels
-    odd_share: np.ndarray  # share of the deformation that no ellipse of this inertia ratio has
+    odd_fraction: np.ndarray  # fraction of the deformation that no ellipse of this inertia ratio has
 
 
 class TextFiles(NamedTuple):
@@ -101,7 +101,7 @@ def _by_executor(executor, spec, folder, tell):
             for future in concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED).done:
                 pieces.keep(running.pop(future), future.result())
             if tell:
-                tell(pieces.share_done())
+                tell(pieces.fraction_done())
     except concurrent.futures.BrokenExecutor as error:
         raise UserError(f"The executor has broken down ({error}) What is finished is kept: call again.") from error
     finally:
@@ -120,7 +120,7 @@ def table(spec, folder, *, jobs=None, executor=None, progress=None, **overrides)
     executor        a concurrent.futures.Executor that does the work in place of threads, one branch a task: a
                     ProcessPoolExecutor, dask.distributed's Client.get_executor(), mpi4py's MPIPoolExecutor. Its
                     processes need the package, not the folder
-    progress        called with the share that is done; True: a bar of tqdm where it is installed
+    progress        called with the fraction that is done; True: a bar of tqdm where it is installed
     overrides       keys that replace those of the spec, with two underscores for each dot: table__radii=12
 
     Returns the Table; for cells with bulk and cortex, the folder, which rheocyte.moduli takes. UserError names a wrong
@@ -216,7 +216,7 @@ class Table:
                                             (inert_ratio_cvx)
         pixel_size_um, correct_area         as modulus
 
-        Returns Shapes: expected, excess, standard_error, odd_share, arrays (n,). UserError for arrays that do not fit,
+        Returns Shapes: expected, excess, standard_error, odd_fraction, arrays (n,). UserError for arrays that do not fit,
         and for tables that do not know the shapes of their cells (published ones).
         """
         columns = {"area_um2": area_um2, "deform": deform, "inertia_ratio": inertia_ratio}

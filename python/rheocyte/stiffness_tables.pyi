@@ -18,7 +18,7 @@ class Shapes(NamedTuple):
     expected: NDArray[np.float64]
     excess: NDArray[np.float64]
     standard_error: NDArray[np.float64]
-    odd_share: NDArray[np.float64]
+    odd_fraction: NDArray[np.float64]
 
 class TextFiles(NamedTuple):
     table: Path

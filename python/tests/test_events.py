@@ -24,7 +24,7 @@ def cloud(count=20000):
 
 
 class Densities(unittest.TestCase):
-    def test_the_integral_is_the_share_inside(self):
+    def test_the_integral_is_the_fraction_inside(self):
         x, y = cloud()
         density = Density(np.append(x, [500.0] * len(x)), np.append(y, y), RECTANGLE)
         cell = (density.x[1] - density.x[0]) * (density.y[1] - density.y[0])
@@ -37,7 +37,7 @@ class Densities(unittest.TestCase):
         peak = 1 / (2 * np.pi * 12 * 0.012 * (1 + shrink**2))  # the kernel adds its variance
         self.assertAlmostEqual(density.at(np.array([100.0]), np.array([0.08]))[0] / peak, 1, delta=0.03)
 
-    def test_contours_enclose_their_share(self):
+    def test_contours_enclose_their_fraction(self):
         x, y = cloud()
         density = Density(x, y, RECTANGLE)
         seen = density.at(x, y)

@@ -18,7 +18,7 @@ namespace rheocyte {
 
 namespace {
 
-// Share of the tube's radius where the published lines begin.
+// Fraction of the tube's radius where the published lines begin.
 constexpr double min_default_ratio = 0.1;
 
 // Under standard conditions (20 um, 0.04 ul/s, 15 mPa s): the range of moduli, and the levels of the published lines.

@@ -41,8 +41,8 @@ void draw(const TableFolder& folder) {
 }
 
 /// What the process takes part with: rank 0 finishes the table.
-struct Share {
-  explicit Share(const TableOptions& options)
+struct OwnWork {
+  explicit OwnWork(const TableOptions& options)
       : jobs(options.jobs > 0 ? options.jobs : available_processors(rank)), quiet(options.quiet || rank.number > 0) {}
   Rank rank = rank_from_environment();
   int jobs;
@@ -50,13 +50,13 @@ struct Share {
 };
 
 /// False if a signal has ended it.
-bool compute(const SharedWork& work, const char* pieces, const Share& share) {
-  Progress progress(pieces, work.pieces(), work.done(), share.quiet);
+bool compute(const SharedWork& work, const char* pieces, const OwnWork& own) {
+  Progress progress(pieces, work.pieces(), work.done(), own.quiet);
   const WorkObserver observer{[&](int done) { progress.show(done); },
                               [&] {
-                                if (!share.quiet) tell("the rest is being computed by other processes");
+                                if (!own.quiet) tell("the rest is being computed by other processes");
                               }};
-  const bool is_complete = work_on(work, share.jobs, observer, stop_wanted());
+  const bool is_complete = work_on(work, own.jobs, observer, stop_wanted());
   progress.finish();
   if (!is_complete)
     tell(fmt::format("rheocyte: stopped after {} of {} {}; the same command goes on from here.", work.done(),
@@ -76,10 +76,10 @@ std::string failure_text(const std::vector<CellCourse>& failed) {
 int make_dynamic_table(const TableOptions& options, const std::string& text) {
   const DynamicSpec spec = parse_dynamic_spec(text, options.spec.string(), options.settings);
   watch_signals();
-  const Share share(options);
+  const OwnWork own(options);
   const DynamicFolder folder(options.folder, spec);
-  if (!compute(folder, "cells", share)) return exit_stopped();
-  if (share.rank.number > 0) return exit_converged;
+  if (!compute(folder, "cells", own)) return exit_stopped();
+  if (own.rank.number > 0) return exit_converged;
   auto courses = folder.courses();
   if (const auto ended_early = failed(courses); !ended_early.empty())
     return tell(failure_text(ended_early)), exit_numerical;
@@ -102,12 +102,12 @@ int make_table(const TableOptions& options) {
     return make_dynamic_table(options, text);
   const TableSpec spec = read_table_spec(options.spec, options.settings);
   const TableFolder folder(options.folder, spec);
-  const Share share(options);
+  const OwnWork own(options);
   watch_signals();
   provide_tube_table(folder);
   folder.take_over();
-  if (!compute(TableWork(folder), "branches", share)) return exit_stopped();
-  if (share.rank.number > 0) return exit_converged;
+  if (!compute(TableWork(folder), "branches", own)) return exit_stopped();
+  if (own.rank.number > 0) return exit_converged;
   for (const auto& sentence : finish_table(folder, options.levels, version)) tell("rheocyte: warning: " + sentence);
   if (!options.no_picture && !spec.is_combined() && !spec.is_elongated()) draw(folder);
   if (!options.quiet) print(fmt::format("{}  folder {}\n", summary(folder), options.folder.string()));

@@ -30,11 +30,11 @@ namespace {
 // One plain line per continuation step, so that logs stay readable.
 ProgressCallback progress_lines(const Case& c) {
   return [cell = c.cell, step = 0](const BranchStep& point) mutable {
-    const double share = 1 / point.compliance;
+    const double fraction = 1 / point.compliance;
     const auto stiffness = point.compliance <= 0 ? "rigid"
                            : cell.bulk.young_modulus_kPa
-                               ? fmt::format("E = {:.5g} kPa", share * *cell.bulk.young_modulus_kPa)
-                               : fmt::format("E2D = {:.5g} mN/m", share * cell.cortex.modulus_mN_per_m.value_or(0));
+                               ? fmt::format("E = {:.5g} kPa", fraction * *cell.bulk.young_modulus_kPa)
+                               : fmt::format("E2D = {:.5g} mN/m", fraction * cell.cortex.modulus_mN_per_m.value_or(0));
     tell(fmt::format("step {:>3}  {:<16}  degree {:>2}  deformation {:.6f}  {}", ++step, stiffness, point.degree,
                      point.deformation, plural(point.newton_iterations, "Newton iteration")));
   };

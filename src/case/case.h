@@ -71,10 +71,10 @@ inline Liquid liquid_of(const Flow& flow) {
 /// The interior of the cell.
 struct BulkCase {
   BulkLaw law = BulkLaw::neo_hookean;
-  std::optional<double> young_modulus_kPa, mooney_share;
+  std::optional<double> young_modulus_kPa, c1_fraction;
 };
 
-/// The cell's surface. Tension is given in mN/m or as a share of the modulus, not both.
+/// The cell's surface. Tension is given in mN/m or as a fraction of the modulus, not both.
 struct CortexCase {
   CortexLaw law = CortexLaw::none;
   std::optional<double> modulus_mN_per_m, tension_mN_per_m, tension_ratio;

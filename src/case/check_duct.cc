@@ -18,10 +18,10 @@ std::string told(const KeyReading& keys, std::string_view key, double value) {
 
 // So much of the energy that deforms the cell: factors of single precision do not correct stiffer surfaces.
 double max_bending_in_ducts_kBT(const Case& c) {
-  constexpr double share = 4e-3;
+  constexpr double fraction = 4e-3;
   const double r0 = 1e-6 * c.cell.radius_um, mu = 1e3 * c.cell.bulk.young_modulus_kPa.value_or(0) / 3,
                shell = 1e-3 * c.cell.cortex.modulus_mN_per_m.value_or(0);
-  return share * (mu * r0 + shell) * r0 * r0 / thermal_energy_J;
+  return fraction * (mu * r0 + shell) * r0 * r0 / thermal_energy_J;
 }
 
 void check_duct_profile(const Case& c, const KeyReading& keys) {

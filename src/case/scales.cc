@@ -132,7 +132,7 @@ Problem problem_of(const Case& c) {
   problem.liquid.reynolds = c.flow.density_kg_per_m3 * U * U / S;
   problem.bulk = {.law = c.cell.bulk.law,
                   .shear_modulus = E / (3 * S),
-                  .mooney_share = c.cell.bulk.mooney_share.value_or(1),
+                  .c1_fraction = c.cell.bulk.c1_fraction.value_or(1),
                   .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
                   .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S,
                   .rest_stretch = std::pow(c.cell.rest_aspect, 2.0 / 3)};

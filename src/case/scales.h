@@ -8,15 +8,15 @@ namespace rheocyte {
 /// A square channel of width L and a tube of radius 0.547 L have the same pressure drop (Mokbel et al. 2017).
 inline constexpr double tube_radius_per_channel_width = 0.547;
 
-/// The cell's radius must lie between these shares of the tube's.
+/// The cell's radius must lie between these fractions of the tube's.
 inline constexpr double min_radius_ratio = 0.05, max_radius_ratio = 0.965;
 
-/// Share of the half width that a cell off the axis may reach.
+/// Fraction of the half width that a cell off the axis may reach.
 inline constexpr double max_reach_off_axis = 0.95;
 /// How far off the axis a cell may be where the half width is `half`, in the same unit.
 inline double max_offset(double half, double cell_radius) { return max_reach_off_axis * half - cell_radius; }
 
-/// Surface tension of the cell, given or a share of the modulus of its cortex.
+/// Surface tension of the cell, given or a fraction of the modulus of its cortex.
 double tension_mN_per_m(const Case&);
 
 /// Elements along the surface of the sphere that a grid of time.grid_um has; 0: not given.

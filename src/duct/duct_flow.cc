@@ -126,11 +126,11 @@ DuctFlow CrossSection::flow(const Liquid& liquid) const {
   }
   double reached = 0, step = way > 0 ? std::min(1.0, thinning_step / way) : 1;
   while (reached < 1) {
-    const double share = 1 - reached - step < 1e-9 ? 1 : reached + step;
+    const double fraction = 1 - reached - step < 1e-9 ? 1 : reached + step;
     DuctFlow trial = flow;
-    if (improve(share == 1 ? liquid : at_thinning(liquid, share), trial)) {
+    if (improve(fraction == 1 ? liquid : at_thinning(liquid, fraction), trial)) {
       flow = trial;
-      reached = share;
+      reached = fraction;
       continue;
     }
     step /= 2;

@@ -60,8 +60,8 @@ Eigen::Vector2d DuctGeometry::box_across(const DuctPoint& cube, double stretch, 
   const double width = shape_.extent.width * (shape_.narrows_in_height ? 1 : stretch),
                height = shape_.extent.height * (shape_.narrows_in_height ? stretch : 1);
   // In a funnel the middle of front and rear is where the cell's own axis leaves it.
-  const double share = shape_.edge > 0 ? std::clamp(centre / width, -max_middle, max_middle) : 0;
-  return {width * (Y + share) / (1 + share * Y), height * Z};
+  const double fraction = shape_.edge > 0 ? std::clamp(centre / width, -max_middle, max_middle) : 0;
+  return {width * (Y + fraction) / (1 + fraction * Y), height * Z};
 }
 
 DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) const {

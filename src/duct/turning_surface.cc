@@ -18,8 +18,8 @@ TurningSurface::TurningSurface(const DuctSpace& space)
     for (const int node : faces_.back().nodes) ++faces_at[node];
   }
   for (Face& face : faces_) {
-    face.share.resize(Eigen::Index(face.nodes.size()));
-    for (int k = 0; k < face.share.size(); ++k) face.share(k) = 1.0 / faces_at[face.nodes[k]];
+    face.fraction.resize(Eigen::Index(face.nodes.size()));
+    for (int k = 0; k < face.fraction.size(); ++k) face.fraction(k) = 1.0 / faces_at[face.nodes[k]];
   }
 }
 
@@ -69,7 +69,7 @@ void TurningSurface::add_residual(const VectorXd& unknowns, VectorXd& total) con
         const int own = space_.velocity(face.nodes[k], c).unknown;
         if (own < 0) continue;
         const double changing = rate_of_displacement(space_.displacement(face.nodes[k], c), unknowns);
-        total(own) += face.share(k) * (unknowns(own) - unknowns(space_.spin()) * rate(k, c) - changing);
+        total(own) += face.fraction(k) * (unknowns(own) - unknowns(space_.spin()) * rate(k, c) - changing);
       }
     }
   }
@@ -86,13 +86,13 @@ void TurningSurface::add_tangent(int element, const VectorXd& unknowns, const st
       const int own = space_.velocity(face.nodes[k], c).unknown;
       if (own < 0) continue;
       const int row = place[own];
-      matrix(row, row) += float(face.share(k));
-      matrix(row, place[space_.spin()]) -= float(face.share(k) * rate(k, c));
+      matrix(row, row) += float(face.fraction(k));
+      matrix(row, place[space_.spin()]) -= float(face.fraction(k) * rate(k, c));
       if (const int changing = space_.displacement(face.nodes[k], c); changing >= 0)
-        matrix(row, place[changing]) -= float(face.share(k) * motion_.rate);
+        matrix(row, place[changing]) -= float(face.fraction(k) * motion_.rate);
       for (int j = 0; j < rate.rows(); ++j) {
         const int moved = space_.displacement(face.nodes[j], c);
-        if (moved >= 0) matrix(row, place[moved]) -= float(face.share(k) * spin * face.rate(k, j));
+        if (moved >= 0) matrix(row, place[moved]) -= float(face.fraction(k) * spin * face.rate(k, j));
       }
     }
   }

@@ -29,8 +29,8 @@ class TurningSurface {
  private:
   struct Face {
     std::vector<int> nodes;
-    MatrixXd rate;   ///< d/dt at the nodes of what turns with the spin 1: nodes x nodes
-    VectorXd share;  ///< one over the number of faces at a node
+    MatrixXd rate;      ///< d/dt at the nodes of what turns with the spin 1: nodes x nodes
+    VectorXd fraction;  ///< one over the number of faces at a node
   };
   Face face_of(int element) const;
   double rate_of_displacement(int unknown, const VectorXd& unknowns) const;

@@ -10,8 +10,8 @@ namespace rheocyte {
 
 namespace {
 
-/// The prediction counts as met within so many standard errors and this much of the slope: shares and tensions of the
-/// cells differ, too.
+/// The prediction counts as met within so many standard errors and this much of the slope: fractions and tensions of
+/// the cells differ, too.
 constexpr double errors_allowed = 3, slope_allowed = 0.1;
 
 /// Its error is that of what it is computed from.

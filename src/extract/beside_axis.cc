@@ -16,12 +16,12 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t fewest_events = 15, fewest_for_centring = 20;
-constexpr double least_spread_um = 0.2;         // rms
-constexpr double least_way_um = 10;             // between the thirds
-constexpr double least_elongation = 1.05;       // inertia ratio of cells that are called elongated
-constexpr double share_that_decides = 1.0 / 3;  // of the tilt of a stored shape
-constexpr double sure = 2;                      // standard errors
-constexpr double far_from_all = 4;              // robust standard deviations from the median: no cell of the others
+constexpr double least_spread_um = 0.2;            // rms
+constexpr double least_way_um = 10;                // between the thirds
+constexpr double least_elongation = 1.05;          // inertia ratio of cells that are called elongated
+constexpr double fraction_that_decides = 1.0 / 3;  // of the tilt of a stored shape
+constexpr double sure = 2;                         // standard errors
+constexpr double far_from_all = 4;                 // robust standard deviations from the median: no cell of the others
 
 using Column = std::vector<double>;
 
@@ -99,7 +99,7 @@ void read_thirds(const Events& events, BesideAxis& r) {
 Estimate centring_of(const Events& events, double axis_um) {
   constexpr int iterations = 8;  // each changes the rate by 0.15 of the change before
   // A change of the rate moves the robust line of distances of a normal distribution, the largest of which hardly
-  // count, by this share of what it moves their mean.
+  // count, by this fraction of what it moves their mean.
   constexpr double response = 0.85;
   const double middle_x = median_of(finite(events.along));
   double rate = 0, error = no_value;
@@ -151,7 +151,7 @@ BesideAxis::Turn BesideAxis::turn() const {
   const Estimate change = flank_change();
   if (!(inertia_ratio > least_elongation) || !std::isfinite(stored_slope) || !std::isfinite(change.error))
     return Turn::unknown;
-  const double limit = share_that_decides * stored_slope;
+  const double limit = fraction_that_decides * stored_slope;
   const auto is_within = [limit](const Estimate& e) { return std::abs(e.value) + sure * e.error < limit; };
   const auto is_above = [limit](const Estimate& e) { return e.value - sure * e.error > limit; };
   if (is_within(flank_slope) && is_within(change)) return Turn::parallel;

@@ -14,7 +14,7 @@ namespace rheocyte {
 namespace {
 
 constexpr int mode_2 = int(ShapeFeature::first_mode), last_fitted_mode = 7;
-/// A share of the cortex nearer to 0 or 1 than so many of its spreads tells no modulus of the smaller part.
+/// A fraction of the cortex nearer to 0 or 1 than so many of its spreads tells no modulus of the smaller part.
 constexpr double least_spreads_from_end = 2, most_relative_error = 0.25;
 
 ModuliOptions moduli_options(const PopulationOptions& options) {
@@ -82,12 +82,12 @@ double most_residual(int feature) {
 
 /// Why bulk and cortex are not told apart; empty if they are.
 std::string not_told_apart(const CombinedPopulation& found) {
-  const double share = found.law.mean(2), spread = found.law.spread(2);
-  for (const auto& [from_end, end] : {std::pair(share, "no cortex"), std::pair(1 - share, "cortex alone")})
+  const double fraction = found.law.mean(2), spread = found.law.spread(2);
+  for (const auto& [from_end, end] : {std::pair(fraction, "no cortex"), std::pair(1 - fraction, "cortex alone")})
     if (from_end < least_spreads_from_end * spread)
       return fmt::format(
-          "the share of the cortex in E + E2D/r0, {:.2f} with a spread of {:.2f}, reaches that of cells of {}", share,
-          spread, end);
+          "the fraction of the cortex in E + E2D/r0, {:.2f} with a spread of {:.2f}, reaches that of cells of {}",
+          fraction, spread, end);
   for (std::size_t k = 0; k < found.features.size(); ++k) {
     const auto i = Eigen::Index(k);
     const double error = std::sqrt(found.fit.measured.covariance(i, i) / double(found.fit.events));
@@ -134,9 +134,9 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
 /// A spread at its lower bound is none that could be seen.
 void tell_bounds(const MomentFit& fit, RecordingReport& r) {
   using enum CombinedParameter;
-  constexpr std::array names{std::pair(cortex_share, "the share of the cortex"),
+  constexpr std::array names{std::pair(cortex_fraction, "the fraction of the cortex"),
                              std::pair(tension_ratio, "the tension of the cortex over E2D"),
-                             std::pair(log_share_spread, "the spread of the share of the cortex"),
+                             std::pair(log_fraction_spread, "the spread of the fraction of the cortex"),
                              std::pair(log_ratio_spread, "the spread of the tension of the cortex over E2D"),
                              std::pair(log_axial_spread, "the spread of the axial tension")};
   const double small_spread = std::log(0.05);
@@ -264,7 +264,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   r.beside_table = combined.found.outside;
   combined.strangers = cells.size() - r.beside_table - fit.events;
   r.fitted_events = fit.events;
-  if (combined.found.kept_share < least_kept_share) refuse_tail(r, combined.found.kept_share);
+  if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
   r.failure = why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow).length);
   if (!r.failure.empty()) return;
   tell(combined.found, combined, r);

@@ -12,8 +12,8 @@ namespace rheocyte {
 /// inertia; what is wrong with viscosity, flow rate and pixel size comes on top. `of_event` is the standard error of
 /// the median event, of which the law of the pixels leaves up to a quarter in the median (bench/pixel_coverage).
 inline double common_error_by_deformation(double of_event, double reynolds) {
-  constexpr double share_left = 0.25;
-  return std::hypot(share_left * of_event, modulus_per_reynolds * reynolds);
+  constexpr double fraction_left = 0.25;
+  return std::hypot(fraction_left * of_event, modulus_per_reynolds * reynolds);
 }
 
 /// The same of the table of elongated cells: by how much medians of cells are off, half of which were drawn out by a

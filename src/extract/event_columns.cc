@@ -38,9 +38,10 @@ void add_shapes(ColumnsOf<EventBlock>& columns) {
         .sentence = "whether the cell is longer along the flow than that of the table",
         .is_flag = true},
        of(&ShapeExcess::is_elongated)},
-      {{"odd_share", "", "Odd share of the outline",
-        "share of the deformation that is not that of an ellipse of this inertia ratio", "odd_share", rank_of_shapes},
-       of(&ShapeExcess::odd_share)}};
+      {{"odd_fraction", "", "Odd fraction of the outline",
+        "fraction of the deformation that is not that of an ellipse of this inertia ratio", "odd_fraction",
+        rank_of_shapes},
+       of(&ShapeExcess::odd_fraction)}};
   columns.insert(columns.end(), of_shapes.begin(), of_shapes.end());
 }
 

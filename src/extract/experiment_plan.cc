@@ -46,7 +46,7 @@ class PlannedCells {
         u_(std::log(options.radius_um)) {}
 
   void tell() {
-    channel_.inside = share_inside();
+    channel_.inside = fraction_inside();
     const auto radii = map_->log_radii();
     const double x = log_modulus_ - map_->soft_end(u_).log_modulus;
     channel_.deformation = channel_.mode_3 = channel_.error_by_asymmetry = channel_.error_by_deformation = no_value;
@@ -65,7 +65,7 @@ class PlannedCells {
   }
 
  private:
-  double share_inside() const {
+  double fraction_inside() const {
     const CellDistribution cells{u_, log_modulus_, options_.radius_spread, options_.spread, 0};
     const auto radii = map_->log_radii();
     int inside = 0;

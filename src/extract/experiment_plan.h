@@ -32,7 +32,7 @@ struct PlannedChannel {
   ChannelFlow flow;
   double speed_m_s = 0, wall_stress_Pa = 0;  ///< mean speed; shear stress at the wall without a cell
   double deformation = 0, mode_3 = 0;        ///< of the median cell; NaN where the table does not have it
-  double inside = 0;                         ///< share of the cells that the table has
+  double inside = 0;                         ///< fraction of the cells that the table has
   double error_by_asymmetry = 0, error_by_deformation = 0;  ///< of ln E by one image
   bool is_recommended = false;                              ///< d of 0.01 to 0.03, 95 % of the cells inside
   int sessions = 0;                                         ///< for the wanted power, 0 if a hundred do not do

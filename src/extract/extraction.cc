@@ -178,12 +178,12 @@ std::string Extraction::beyond_the_square() const {
   constexpr double worth_a_word = 0.01;
   const auto count = [this](ModulusState state) { return summary_.counts[static_cast<std::size_t>(state)]; };
   const auto beyond = static_cast<double>(count(ModulusState::unstable) + count(ModulusState::too_soft));
-  const double share = beyond / static_cast<double>(recording_.events());
-  if (!are_square_ || share < worth_a_word) return {};
+  const double fraction = beyond / static_cast<double>(recording_.events());
+  if (!are_square_ || fraction < worth_a_word) return {};
   return fmt::format(
       "{:.0f} % of the events are deformed beyond the smooth shapes of {}; the tables of the tube reach farther "
       "(section tube).",
-      100 * share, table().origin().identifier);
+      100 * fraction, table().origin().identifier);
 }
 
 std::vector<std::string> Extraction::lines() const {

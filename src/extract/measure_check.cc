@@ -19,7 +19,7 @@ constexpr double chance_of_fitted = 1.2, least_of_fitted = 0.04, chance_of_other
 constexpr double chance_of_third = 1.95;
 constexpr std::size_t fewest_in_third = 30;
 /// Of the medians.
-constexpr double most_errors = 5, share_of_fitted = 0.1, share_of_others = 0.2;
+constexpr double most_errors = 5, fraction_of_fitted = 0.1, fraction_of_others = 0.2;
 /// Of c_4 and c_5, in which all real cells differ a little from solids.
 constexpr double least_mode_difference = 0.01, most_spreads_of_modes = 0.5;
 
@@ -37,16 +37,16 @@ double greatest_difference(std::vector<double> a, std::vector<double> b) {
   return greatest;
 }
 
-/// Beyond which distance of the distributions and which share of the spread between the medians there is a misfit.
+/// Beyond which distance of the distributions and which fraction of the spread between the medians there is a misfit.
 struct Tolerance {
-  double chance, least, share;
+  double chance, least, fraction;
 };
 Tolerance tolerance_of(MeasureRule rule) {
-  if (rule == MeasureRule::fitted) return {chance_of_fitted, least_of_fitted, share_of_fitted};
-  return {chance_of_others, least_of_others, share_of_others};
+  if (rule == MeasureRule::fitted) return {chance_of_fitted, least_of_fitted, fraction_of_fitted};
+  return {chance_of_others, least_of_others, fraction_of_others};
 }
 /// Nothing is fitted to a third by itself.
-constexpr Tolerance tolerance_of_third{chance_of_third, least_of_others, share_of_others};
+constexpr Tolerance tolerance_of_third{chance_of_third, least_of_others, fraction_of_others};
 
 ThirdCheck compared(MeasureRule rule, const Tolerance& tolerance, const std::vector<double>& measured,
                     const std::vector<double>& predicted) {
@@ -64,7 +64,7 @@ ThirdCheck compared(MeasureRule rule, const Tolerance& tolerance, const std::vec
   }
   const double by_chance = tolerance.chance / std::sqrt(double(check.events));
   check.fits =
-      check.distance <= std::max(by_chance, tolerance.least) && off <= std::max(chance, tolerance.share * spread);
+      check.distance <= std::max(by_chance, tolerance.least) && off <= std::max(chance, tolerance.fraction * spread);
   return check;
 }
 

@@ -17,15 +17,15 @@ using nlohmann::ordered_json;
 constexpr int population_schema = 1;
 constexpr std::array combined_names{"mean_ln_radius",
                                     "mean_ln_stiffness",
-                                    "mean_cortex_share",
+                                    "mean_cortex_fraction",
                                     "mean_tension_ratio",
                                     "mean_axial_tension_over_wall_stress",
                                     "ln_root_radius_radius",
                                     "root_stiffness_radius",
                                     "ln_root_stiffness_stiffness",
-                                    "root_share_radius",
-                                    "root_share_stiffness",
-                                    "ln_root_share_share",
+                                    "root_fraction_radius",
+                                    "root_fraction_stiffness",
+                                    "ln_root_fraction_fraction",
                                     "ln_spread_of_tension_ratio",
                                     "ln_spread_of_axial_tension"};
 constexpr double normal_95 = 1.959964;  ///< half width of the interval of 95 %
@@ -108,7 +108,7 @@ ordered_json fitted_json(const FittedCells& f) {
           {"spread_of_ln_radius", f.cells.radius_spread},
           {"correlation", f.cells.correlation},
           {"error_of_ln_modulus_by_one_image", f.event_error},
-          {"kept_share", f.kept_share},
+          {"kept_fraction", f.kept_fraction},
           {"log_likelihood", f.log_likelihood},
           {"parameters", parameters_json(f)},
           {"covariance", covariance_json(f)}};
@@ -145,13 +145,13 @@ ordered_json combined_json(const RecordingReport& r) {
   const CombinedReport& combined = *r.combined;
   json["bulk_and_cortex_not_told_because"] =
       combined.not_told.empty() ? ordered_json(nullptr) : ordered_json(combined.not_told);
-  json["cortex_share"] = combined.found.law.mean(2);
+  json["cortex_fraction"] = combined.found.law.mean(2);
   json["tension_ratio"] = combined.found.law.tension_ratio;
   json["axial_tension_over_wall_stress"] = combined.found.law.axial_tension;
   json["median_radius_um"] = std::exp(r.log_radius);
   json["spread_of_ln_radius"] = r.radius_spread;
   json["section"] = combined.section == Section::square ? "square" : "tube";
-  json["kept_share"] = combined.found.kept_share;
+  json["kept_fraction"] = combined.found.kept_fraction;
   json["strangers"] = combined.strangers;
   json["parameters"] = law_json(combined);
   return json;

@@ -27,10 +27,10 @@ void check_events_of_population(const RecordingReport& report) {
                                               report.fitted_events, report.recorded, fewest_population_events));
 }
 
-void refuse_tail(const RecordingReport& report, double kept_share) {
+void refuse_tail(const RecordingReport& report, double kept_fraction) {
   refuse_path(report.recording, fmt::format("the gates leave a tail of its cells, {:.1g} of them; nothing certain can "
                                             "be said of the rest. Widen the gates.",
-                                            kept_share));
+                                            kept_fraction));
 }
 
 }  // namespace rheocyte

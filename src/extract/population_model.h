@@ -31,7 +31,7 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
 /// UserError below the events that a population needs.
 void check_events_of_population(const RecordingReport& report);
 
-/// UserError: gates that keep less than least_kept_share.
-[[noreturn]] void refuse_tail(const RecordingReport& report, double kept_share);
+/// UserError: gates that keep less than least_kept_fraction.
+[[noreturn]] void refuse_tail(const RecordingReport& report, double kept_fraction);
 
 }  // namespace rheocyte

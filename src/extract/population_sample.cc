@@ -203,8 +203,8 @@ class SampleMaker {
       noises.push_back(
           std::sqrt(group.map->at(0.5 * (event.log_area - std::log(std::numbers::pi)), 1).measure_variance));
     }
-    const double share = events_.events() > fewest_finely_binned ? fine_bin_in_noise : bin_in_noise;
-    const BinWidths widths{area_bin, share * median_of(noises), viscosity_bin};
+    const double fraction = events_.events() > fewest_finely_binned ? fine_bin_in_noise : bin_in_noise;
+    const BinWidths widths{area_bin, fraction * median_of(noises), viscosity_bin};
     for (EventGroup& group : made_.sample.groups) group.events = binned(group.events, widths);
     made_.sample.added_area_variance = widths.log_area * widths.log_area / 12;
     made_.sample.added_measure_variance = widths.measure * widths.measure / 12;

@@ -12,7 +12,7 @@ std::string table_of_solids(const PopulationReport& report) {
   std::string text(mark_of_population_table);
   text +=
       "events\tyoung_modulus_kPa\tlower_kPa\tupper_kPa\tln_modulus\tln_modulus_error\tln_modulus_spread\tradius_um\t"
-      "ln_radius_spread\tcorrelation\telongation\twall_stress_Pa\tkept_share\tfits\n";
+      "ln_radius_spread\tcorrelation\telongation\twall_stress_Pa\tkept_fraction\tfits\n";
   for (const auto& r : report.recordings) {
     text += fmt::format("{}\t{}\t{}\t{}\t", report.conditions[r.condition].name, r.session + 1, r.recording.string(),
                         r.fitted_events);
@@ -28,7 +28,7 @@ std::string table_of_solids(const PopulationReport& report) {
         "{:.6g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\t{}\n",
         std::exp(c.mean_log_modulus), std::exp(e.lower), std::exp(e.upper), c.mean_log_modulus,
         r.fitted.standard_error(PopulationParameter::mean_log_modulus), c.modulus_spread, std::exp(c.mean_log_radius),
-        c.radius_spread, c.correlation, r.median_elongation, r.wall_stress_Pa(), r.fitted.kept_share,
+        c.radius_spread, c.correlation, r.median_elongation, r.wall_stress_Pa(), r.fitted.kept_fraction,
         std::ranges::all_of(r.checks, &MeasureCheck::fits) ? "yes" : "no");
   }
   return text;
@@ -37,7 +37,7 @@ std::string table_of_solids(const PopulationReport& report) {
 /// The quantities one beside the other; nan where a recording does not tell one.
 std::string table_of_combined(const PopulationReport& report) {
   std::string text(mark_of_population_table);
-  text += "events\tradius_um\tln_radius_spread\telongation\twall_stress_Pa\tkept_share";
+  text += "events\tradius_um\tln_radius_spread\telongation\twall_stress_Pa\tkept_fraction";
   const auto quantities = report.quantities();
   for (const auto quantity : quantities) {
     const auto key = words_of(quantity).key;
@@ -45,9 +45,10 @@ std::string table_of_combined(const PopulationReport& report) {
   }
   text += "\tfits\n";
   for (const auto& r : report.recordings) {
-    text += fmt::format("{}\t{}\t{}\t{}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}", report.conditions[r.condition].name,
-                        r.session + 1, r.recording.string(), r.fitted_events, std::exp(r.log_radius), r.radius_spread,
-                        r.median_elongation, r.wall_stress_Pa(), r.combined ? r.combined->found.kept_share : no_value);
+    text +=
+        fmt::format("{}\t{}\t{}\t{}\t{:.6g}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}", report.conditions[r.condition].name,
+                    r.session + 1, r.recording.string(), r.fitted_events, std::exp(r.log_radius), r.radius_spread,
+                    r.median_elongation, r.wall_stress_Pa(), r.combined ? r.combined->found.kept_fraction : no_value);
     for (const auto quantity : quantities) {
       const QuantityEstimate* const e = r.estimate(quantity);
       text +=

@@ -10,12 +10,12 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> names{ratio_feature, expected_ratio_feature, "shape_excess", "odd_share",
+constexpr std::array<std::string_view, 5> names{ratio_feature, expected_ratio_feature, "shape_excess", "odd_fraction",
                                                 "mode_3"};
 
 double ShapeExcess::*member_of(const std::string& feature) {
   if (feature == expected_ratio_feature) return &ShapeExcess::expected;
-  return feature == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_share;
+  return feature == "shape_excess" ? &ShapeExcess::excess : &ShapeExcess::odd_fraction;
 }
 
 /// Null for any other feature.

@@ -15,7 +15,7 @@ inline constexpr const char *expected_ratio_feature = "inertia_ratio_expected", 
 
 class ShapeFeatures {
  public:
-  /// inertia_ratio, inertia_ratio_expected, shape_excess, odd_share, mode_3, and those of tilt_features().
+  /// inertia_ratio, inertia_ratio_expected, shape_excess, odd_fraction, mode_3, and those of tilt_features().
   static bool knows(const std::string& feature);
 
   /// The recording and the source must outlive it. UserError naming what the recording lacks.

@@ -160,9 +160,9 @@ void ShapeTally::take(const JudgedEvents& e) {
     elongated_ += excess.is_elongated() ? 1 : 0;
     const OutlineTilt tilt = e.tilt.empty() ? OutlineTilt{} : e.tilt[i];
     events_.push_back({static_cast<float>(excess.excess), static_cast<float>(excess.expected), at(e.inertia_ratio, i),
-                       static_cast<float>(excess.odd_share), at(e.area_um2, i), at(e.deformation, i), at(e.mode_3, i),
-                       at(e.x_um, i), at(e.mode_4, i), at(e.y_um, i), static_cast<float>(tilt.sine_mode_2),
-                       static_cast<float>(tilt.flank_slope)});
+                       static_cast<float>(excess.odd_fraction), at(e.area_um2, i), at(e.deformation, i),
+                       at(e.mode_3, i), at(e.x_um, i), at(e.mode_4, i), at(e.y_um, i),
+                       static_cast<float>(tilt.sine_mode_2), static_cast<float>(tilt.flank_slope)});
   }
 }
 
@@ -197,7 +197,7 @@ ShapeVerdict ShapeTally::verdict() const {
   v.excess = median_with_error(column(&Event::excess));
   v.inertia_ratio = median(&Event::inertia_ratio);
   v.expected_inertia_ratio = median(&Event::expected);
-  v.odd_share = median(&Event::odd_share);
+  v.odd_fraction = median(&Event::odd_fraction);
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });

@@ -67,7 +67,7 @@ struct ShapeVerdict {
   std::string made_of;             ///< of a virtual recording: what the recording says of its cells, in a sentence
   FittingTable other;              ///< looked for where the shapes are not certainly those of the table
   Median excess;
-  double inertia_ratio = 0, expected_inertia_ratio = 0, odd_share = 0;  ///< medians
+  double inertia_ratio = 0, expected_inertia_ratio = 0, odd_fraction = 0;  ///< medians
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
   Trend mode_4_trend;
@@ -86,10 +86,10 @@ struct ShapeVerdict {
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
-                    s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_share, s.seen_um, s.inertia_ratio_trend,
-                    s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction, s.by_deformation_kPa,
-                    s.elongated_by, s.elongated_kPa, s.elongated_common_error, s.with_elongation, s.modulus_ratio,
-                    s.elongation, s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_fraction, s.seen_um,
+                    s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
+                    s.by_deformation_kPa, s.elongated_by, s.elongated_kPa, s.elongated_common_error, s.with_elongation,
+                    s.modulus_ratio, s.elongation, s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -143,7 +143,7 @@ class ShapeTally {
 
  private:
   struct Event {
-    float excess, expected, inertia_ratio, odd_share, area, deformation, mode_3, x;
+    float excess, expected, inertia_ratio, odd_fraction, area, deformation, mode_3, x;
     float mode_4, y, sine_mode_2, flank_slope;
   };
   std::vector<double> column(float Event::*member) const;

@@ -66,7 +66,7 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   settings.threads = threads_;
   settings.with_shrunken = true;
   r.fitted = fit_cells(made.sample, settings);
-  if (r.fitted.state == FitState::tail) refuse_tail(r, r.fitted.kept_share);
+  if (r.fitted.state == FitState::tail) refuse_tail(r, r.fitted.kept_fraction);
   r.failure = failure_of(r);
   tell_bounds(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));

@@ -101,7 +101,7 @@ Columns of_verdict() {
           {"inertia_ratio_median", of_shapes(&V::inertia_ratio)},
           {"inertia_ratio_expected", of_shapes(&V::expected_inertia_ratio)},
           {"elongated_percent", of_shapes(&V::elongated_percent)},
-          {"odd_share_median", of_shapes(&V::odd_share)},
+          {"odd_fraction_median", of_shapes(&V::odd_fraction)},
           {"red_cells", of_shapes([](const V& v) { return double(v.red_cells); }), digits_of_counts},
           {"inertia_ratio_change", of_shapes([](const V& v) { return v.inertia_ratio_trend.change; })},
           {"deformation_change", of_shapes([](const V& v) { return v.deformation_trend.change; })},

@@ -15,8 +15,8 @@ constexpr double least_ratio = 0.3, most_ratio = 0.87;  // of the cells
 /// Linear between a Newtonian liquid and one of the exponent that was solved, and a little beyond.
 double between(double newtonian, double thinning, double exponent) {
   constexpr double least_exponent = 0.45;
-  const double share = (1 - std::clamp(exponent, least_exponent, 1.0)) / (1 - fitted_exponent);
-  return newtonian + share * (thinning - newtonian);
+  const double fraction = (1 - std::clamp(exponent, least_exponent, 1.0)) / (1 - fitted_exponent);
+  return newtonian + fraction * (thinning - newtonian);
 }
 
 double radius_ratio(double radius_um, const ChannelFlow& flow) {

@@ -128,14 +128,14 @@ VectorXd Discretisation::wall_motion(const std::function<double(double)>& wall, 
     for (int k = 0; k < reference_.nodes(); ++k) {
       const int node = nodes_.of_element[e][k], p = reference_.degree(), i = k % (p + 1), j = k / (p + 1);
       const auto [out, along] = self.parameters(reference_.nodes_1d(i), reference_.nodes_1d(j));
-      // Where the node is, and its share of the motion, which grows with r: so it never passes one above it.
-      double x = straight_points_[node](0), share = straight_points_[node](1);
+      // Where the node is, and its fraction of the motion, which grows with r: so it never passes one above it.
+      double x = straight_points_[node](0), fraction = straight_points_[node](1);
       if (has_spokes(self.block)) {
         const int foot = elements_[e].columns[self.outward_first ? j : i].unknown;
         if (foot >= 0) x += elements_[e].position->at_nodes[0](k, self.outward_first ? j : i) * unknowns(foot);
-        share = self.block == Block::top ? out : out * along;
+        fraction = self.block == Block::top ? out : out * along;
       }
-      outward(node) = share * (wall(x) - 1);
+      outward(node) = fraction * (wall(x) - 1);
     }
   }
   return outward;

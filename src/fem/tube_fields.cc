@@ -28,8 +28,8 @@ MatrixXd spoke_displacement(const Discretisation& space, const VectorXd& unknown
     const Eigen::Index i = std::clamp<Eigen::Index>(
         std::upper_bound(begin, begin + surface.angle.size(), angle) - begin, 1, surface.angle.size() - 1);
     const double gap = surface.angle(i) - surface.angle(i - 1);
-    const double share = gap > 0 ? std::clamp((angle - surface.angle(i - 1)) / gap, 0.0, 1.0) : 0;
-    const Point foot = (1 - share) * surface.point.row(i - 1) + share * surface.point.row(i);
+    const double fraction = gap > 0 ? std::clamp((angle - surface.angle(i - 1)) / gap, 0.0, 1.0) : 0;
+    const Point foot = (1 - fraction) * surface.point.row(i - 1) + fraction * surface.point.row(i);
     displacement.row(k) = (X.norm() / radius * foot - X).transpose();
   }
   return displacement;

@@ -34,16 +34,16 @@ struct Moduli {
 };
 
 Moduli moduli_at(const CellCoordinates& cell, const CombinedState& state) {
-  const double S = std::exp(state.value(log_stiffness_row)), share = cell(x_share), ratio = cell(x_ratio),
+  const double S = std::exp(state.value(log_stiffness_row)), fraction = cell(x_fraction), ratio = cell(x_ratio),
                r0 = std::exp(cell(x_radius));
   Moduli m;
   const CellCoordinates by_s = state.gradient.row(log_stiffness_row).transpose();
   m.stiffness = S;
   m.stiffness_gradient = S * by_s;
-  m.value << (1 - share) * S, share * S * r0, ratio * share * S * r0;
-  m.gradient.row(int(Modulus::young)) = S * ((1 - share) * by_s - CellCoordinates::Unit(x_share)).transpose();
+  m.value << (1 - fraction) * S, fraction * S * r0, ratio * fraction * S * r0;
+  m.gradient.row(int(Modulus::young)) = S * ((1 - fraction) * by_s - CellCoordinates::Unit(x_fraction)).transpose();
   const CellCoordinates cortex =
-      S * r0 * (share * by_s + share * CellCoordinates::Unit(x_radius) + CellCoordinates::Unit(x_share));
+      S * r0 * (fraction * by_s + fraction * CellCoordinates::Unit(x_radius) + CellCoordinates::Unit(x_fraction));
   m.gradient.row(int(Modulus::cortex)) = cortex.transpose();
   m.gradient.row(int(Modulus::tension)) =
       (ratio * cortex + m.value(int(Modulus::cortex)) * CellCoordinates::Unit(x_ratio)).transpose();
@@ -137,11 +137,12 @@ double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const Channe
          scale_factors(simulated_, flow).modulus;
 }
 
-// All coordinates free, then that of share and tension which left the table farthest held at its border, until none is.
+// All coordinates free, then that of fraction and tension which left the table farthest held at its border, until none
+// is.
 BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
-                                                     Share share) const {
+                                                     Fraction fraction) const {
   std::vector<int> free{x_radius, x_progress};
-  if (share == Share::fitted) free.push_back(x_share);
+  if (fraction == Fraction::fitted) free.push_back(x_fraction);
   if (options_.free_tension) free.push_back(x_ratio);
   if (table_.is_elongated()) free.push_back(x_axial);
   CellCoordinates cell = start;
@@ -158,7 +159,7 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
     const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
                           beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
     const auto outside = [&](int coordinate) {
-      return coordinate == x_share || coordinate == x_ratio ? beyond(coordinate) : 0;
+      return coordinate == x_fraction || coordinate == x_ratio ? beyond(coordinate) : 0;
     };
     const auto farthest = std::ranges::max_element(free, {}, outside);
     if (outside(*farthest) == 0) return {cell, 2 * summary.final_cost};
@@ -191,8 +192,8 @@ BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit) const {
   CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
   for (const double place : {0.1, 0.5, 0.9}) {
-    start(x_share) = box.least(x_share) + place * (box.greatest(x_share) - box.least(x_share));
-    minima.push_back(minimum_from(misfit, with_best_stiffness(misfit, start), Share::fitted));
+    start(x_fraction) = box.least(x_fraction) + place * (box.greatest(x_fraction) - box.least(x_fraction));
+    minima.push_back(minimum_from(misfit, with_best_stiffness(misfit, start), Fraction::fitted));
   }
   return *std::ranges::min_element(minima, {}, &Candidate::chi_squared);
 }
@@ -202,7 +203,7 @@ std::optional<BulkCortexFit::Candidate> BulkCortexFit::nearest(const MeasuredSha
                                                                const CellCoordinates* start) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
-  return start ? minimum_from(in_table, *start, Share::fitted) : nearest(in_table);
+  return start ? minimum_from(in_table, *start, Fraction::fitted) : nearest(in_table);
 }
 
 ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow& flow,
@@ -238,16 +239,16 @@ CellCoordinates BulkCortexFit::start_for(const MeasuredShape& shape) const {
   return start.cwiseMax(box.least).cwiseMin(box.greatest);
 }
 
-// The best cells of other shares of the cortex that fit nearly as well. The covariance alone does not see them where
-// the features depend on the share in a bent way.
+// The best cells of other fractions of the cortex that fit nearly as well. The covariance alone does not see them where
+// the features depend on the fraction in a bent way.
 std::vector<BulkCortexFit::Candidate> BulkCortexFit::profile(ModuliMisfit& misfit, const Candidate& best) const {
   constexpr int places = 13;
   const CellBox& box = table_.box();
   std::vector<Candidate> alike;
   for (int i = 0; i < places; ++i) {
     CellCoordinates start = best.cell;
-    start(x_share) = box.least(x_share) + i * (box.greatest(x_share) - box.least(x_share)) / (places - 1);
-    const Candidate held = minimum_from(misfit, start, Share::held);
+    start(x_fraction) = box.least(x_fraction) + i * (box.greatest(x_fraction) - box.least(x_fraction)) / (places - 1);
+    const Candidate held = minimum_from(misfit, start, Fraction::held);
     if (held.chi_squared < best.chi_squared + same_chi_squared) alike.push_back(held);
   }
   return alike;

@@ -104,7 +104,7 @@ class BulkCortexFit {
   int freedom() const;
 
  private:
-  enum class Share { fitted, held };
+  enum class Fraction { fitted, held };
   using Covariance = Eigen::Matrix<double, coordinate_count, coordinate_count>;
   /// In the table's channel and flow.
   ModuliMisfit misfit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension) const;
@@ -112,7 +112,7 @@ class BulkCortexFit {
   /// The start at which the features fit best of some whose stiffnesses differ, with the tension that is known.
   static CellCoordinates with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start);
   Candidate nearest(ModuliMisfit& misfit) const;
-  Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Share share) const;
+  Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Fraction fraction) const;
   std::vector<Candidate> profile(ModuliMisfit& misfit, const Candidate& best) const;
   Covariance covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const;
   /// Where another cell fits as well and differs by more than a factor of two, a modulus is not known.

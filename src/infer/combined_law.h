@@ -6,21 +6,21 @@
 
 namespace rheocyte {
 
-/// ln(r0 / um), ln of S = E + E2D / r0 (kPa), and the share of the cortex in S are normally distributed; so is the
-/// tension of the cortex over E2D and that of the liquid along the flow, each by itself. Share and tensions are not
+/// ln(r0 / um), ln of S = E + E2D / r0 (kPa), and the fraction of the cortex in S are normally distributed; so is the
+/// tension of the cortex over E2D and that of the liquid along the flow, each by itself. Fraction and tensions are not
 /// taken by their logarithms: what is small is then told with a symmetric error.
 enum class CombinedParameter {
   log_radius,
   log_stiffness,
-  cortex_share,
+  cortex_fraction,
   tension_ratio,
   axial_tension,  ///< over the wall's shear stress
   log_radius_spread,
   stiffness_by_radius,
   log_stiffness_spread,
-  share_by_radius,
-  share_by_stiffness,
-  log_share_spread,
+  fraction_by_radius,
+  fraction_by_stiffness,
+  log_fraction_spread,
   log_ratio_spread,
   log_axial_spread,
   count

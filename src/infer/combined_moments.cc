@@ -48,10 +48,10 @@ Eigen::Matrix<double, CombinedMoments::varying, combined_parameters> CombinedMom
   for (int k = 0; k <= combined_numbers; ++k) by(k, k) = 1;
   by(4, int(axial_tension)) = wall_stress_kPa_;
   by(0, int(log_radius_spread)) = law.root(0, 0) * place(0);
-  by(1, int(stiffness_by_radius)) = by(2, int(share_by_radius)) = place(0);
+  by(1, int(stiffness_by_radius)) = by(2, int(fraction_by_radius)) = place(0);
   by(1, int(log_stiffness_spread)) = law.root(1, 1) * place(1);
-  by(2, int(share_by_stiffness)) = place(1);
-  by(2, int(log_share_spread)) = law.root(2, 2) * place(2);
+  by(2, int(fraction_by_stiffness)) = place(1);
+  by(2, int(log_fraction_spread)) = law.root(2, 2) * place(2);
   by(3, int(log_ratio_spread)) = law.ratio_spread * place(3);
   by(4, int(log_axial_spread)) = law.axial_spread * place(4) * wall_stress_kPa_;
   return by;
@@ -60,7 +60,7 @@ Eigen::Matrix<double, CombinedMoments::varying, combined_parameters> CombinedMom
 CellCoordinates CombinedMoments::place_in_table(const Numbers& numbers, double log_progress) const {
   CellCoordinates cell;
   cell(x_radius) = numbers(0) - std::log(scale_.length);
-  cell(x_share) = numbers(2);
+  cell(x_fraction) = numbers(2);
   cell(x_progress) = log_progress;
   cell(x_ratio) = numbers(3);
   cell(x_axial) = numbers(4) / std::exp(numbers(1));
@@ -90,7 +90,7 @@ CombinedMoments::Shape CombinedMoments::shape_in_tube(const Numbers& numbers, do
     cell(x_progress) = next;
   }
   Eigen::Matrix<double, coordinate_count, varying> by = Eigen::Matrix<double, coordinate_count, varying>::Zero();
-  by(x_radius, 0) = by(x_share, 2) = by(x_ratio, 3) = 1;
+  by(x_radius, 0) = by(x_fraction, 2) = by(x_ratio, 3) = 1;
   by(x_axial, 1) = -axial, by(x_axial, 4) = std::exp(-numbers(1));
   if (cell(x_progress) > least && cell(x_progress) < greatest) {
     const Eigen::Matrix<double, 1, coordinate_count> g = state.gradient.row(log_stiffness_row);
@@ -145,7 +145,7 @@ ShapeErrors CombinedMoments::section(const Numbers& numbers, const ShapeVector& 
                                         sight_.flow.width_um,
                               .mode_2 = seen(mode_2),
                               .mode_3 = seen(mode_3),
-                              .cortex_share = numbers(2),
+                              .cortex_fraction = numbers(2),
                               .cortex_tension = numbers(2) * numbers(3),
                               .thinning = moduli_.simulated().exponent - sight_.flow.exponent});
   }
@@ -265,9 +265,9 @@ Moments CombinedMoments::moments_of_all(const VectorXd& parameters) const {
   return moments_of(seen(CombinedLaw::of(parameters), nodes_, {}, false), {}).there;
 }
 
-double CombinedMoments::kept_share(const CombinedVector& parameters) const {
+double CombinedMoments::kept_fraction(const CombinedVector& parameters) const {
   if (!gate_) return 1;
-  return share_within(*gate_, area(seen(CombinedLaw::of(parameters), nodes_, {}, false)));
+  return fraction_within(*gate_, area(seen(CombinedLaw::of(parameters), nodes_, {}, false)));
 }
 
 ValueGate CombinedMoments::gate_of_table(const CombinedVector& parameters) const {

@@ -25,7 +25,7 @@ class CombinedMoments : public MomentModel {
   /// From now on moments, pictures and virtual events are those of the cells whose measured ln of the area passes.
   void take_gate(const ValueGate& gate) { gate_ = gate; }
   /// Of the cells of a law.
-  double kept_share(const CombinedVector& parameters) const;
+  double kept_fraction(const CombinedVector& parameters) const;
   /// Areas that no cells but those of the table's sizes have, to three standard deviations of what is measured of cells
   /// of one size.
   ValueGate gate_of_table(const CombinedVector& parameters) const;

@@ -34,12 +34,12 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
   const auto within = [&](CombinedParameter p, double least, double greatest) {
     settings.least(int(p)) = least, settings.greatest(int(p)) = greatest;
   };
-  within(cortex_share, box.least(x_share), box.greatest(x_share));
+  within(cortex_fraction, box.least(x_fraction), box.greatest(x_fraction));
   within(tension_ratio, box.least(x_ratio), box.greatest(x_ratio));
   within(axial_tension, 0, HUGE_VAL);
   within(log_radius_spread, std::log(0.003), 0);
   within(log_stiffness_spread, std::log(0.01), std::log(0.5));
-  within(log_share_spread, std::log(0.01), std::log(0.12));
+  within(log_fraction_spread, std::log(0.01), std::log(0.12));
   within(log_ratio_spread, std::log(0.01), std::log(0.15));
   within(log_axial_spread, std::log(0.01), std::log(0.3));
   settings.goes_on = goes_on;
@@ -47,9 +47,9 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
 }
 
 CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scale, double wall_stress_Pa) {
-  constexpr double share = 0.4, ratio = 0.3;  // from others the search comes to the same end
+  constexpr double fraction = 0.4, ratio = 0.3;  // from others the search comes to the same end
   CombinedLaw law;
-  law.mean << median.cell(x_radius) + std::log(scale.length), std::log(median.stiffness_kPa), share;
+  law.mean << median.cell(x_radius) + std::log(scale.length), std::log(median.stiffness_kPa), fraction;
   law.tension_ratio = ratio;
   law.axial_tension = median.axial_tension_Pa / wall_stress_Pa;
   law.axial_spread = 0.1, law.ratio_spread = 0.1;
@@ -149,7 +149,7 @@ class CombinedSearch {
     found_.bend = model_.bend(q_);
     found_.mean_cell = model_.mean_cell(q_);
     found_.residual = found_.fit.measured.mean - found_.fit.fitted.mean;
-    found_.kept_share = model_.kept_share(q_);
+    found_.kept_fraction = model_.kept_fraction(q_);
     found_.outside = cells_.size() - inside_.size();
     found_.counts.assign(cells_.size(), false);
     for (std::size_t k = 0; k < inside_.size(); ++k) found_.counts[inside_[k]] = !found_.fit.is_stranger[k];

@@ -36,7 +36,7 @@ struct CombinedPopulation {
   std::vector<ShapeVector> drawn;  ///< virtual events of the law, which pass the gates
   std::vector<bool> counts;        ///< by event: it passes the gates, and is no stranger
   std::size_t outside = 0;         ///< events that the gates leave out
-  double kept_share = 1;           ///< of the cells, by the gates
+  double kept_fraction = 1;        ///< of the cells, by the gates
 };
 
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table

@@ -22,7 +22,7 @@ struct CommonTension {
 };
 
 /// Where the sum of chi squared over the cells, or groups of them (means_by_size), is least, each with the moduli that
-/// fit it best at this tension. The share of each in the sum is bounded: a few that are no cells of the model hardly
+/// fit it best at this tension. The fraction of each in the sum is bounded: a few that are no cells of the model hardly
 /// move it. `goes_on` is called from one to the next.
 CommonTension common_tension(
     const BulkCortexFit& moduli, std::span<const SeenCell> cells, const std::function<void()>& goes_on = [] {});

@@ -17,7 +17,7 @@ namespace {
 constexpr int most_steps = 30;
 /// Of the last step; the next one would be about its square.
 constexpr double settled = 1e-6;
-/// So far beyond the table a cell may be on the way, in shares of its widths.
+/// So far beyond the table a cell may be on the way, in fractions of its widths.
 constexpr double beyond = 0.04;
 constexpr double min_height = ElongatedTable::min_height;
 
@@ -91,7 +91,7 @@ Smooth smooth_inertia(const SmoothEvents& events, Eigen::Index k, double pixel_s
 /// What is told of one event.
 struct Estimate {
   double modulus = no_value, modulus_error = no_value, axial_ratio = no_value, ratio_error = no_value,
-         tension = no_value, tension_error = no_value;  ///< kPa in the measurement's flow; shares of it
+         tension = no_value, tension_error = no_value;  ///< kPa in the measurement's flow; fractions of it
   ModulusState state = ModulusState::no_data;
 };
 

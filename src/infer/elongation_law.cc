@@ -16,7 +16,7 @@ constexpr ElongationLaw area_law{-0.71753,  0.0865149, 6.92623,  -12.0116, -49.4
                                  2.26927,   -3.81413,  -175.135, 265.684,  1219.39,  -1745.24};
 constexpr double min_fitted_excess = -0.08, max_fitted_excess = 0.33, max_fitted_mode_3 = 0.14;
 const double min_fitted_area = std::log(0.3), max_fitted_area = std::log(3.0);
-constexpr double share_left = 0.1;  // of the change, by the law
+constexpr double fraction_left = 0.1;  // of the change, by the law
 
 /// What the law gives.
 Packet sum_of(const ElongationLaw& law, const std::array<Packet, 18>& terms) {
@@ -52,7 +52,7 @@ WithoutElongation without_elongation(const LongOutlineOf<Packet>& outline) {
                                                clamped(outline.mode_3, 0, max_fitted_mode_3),
                                                clamped(outline.log_area, min_fitted_area, max_fitted_area)});
   const Packet change = sum_of(mode_3_law, terms);
-  return {change, sum_of(area_law, terms), share_left * change.abs()};
+  return {change, sum_of(area_law, terms), fraction_left * change.abs()};
 }
 
 }  // namespace rheocyte

@@ -91,8 +91,8 @@ std::vector<double> even_levels(const ModulusMap& map, int count) {
   }
   std::vector<double> levels;
   for (int k = 0; k < count && !along.empty(); ++k) {
-    const double share = (k + 0.3) / count;  // the published lines, too, begin nearer to the soft rim
-    levels.push_back(along[static_cast<std::size_t>(share * static_cast<double>(along.size()))]);
+    const double fraction = (k + 0.3) / count;  // the published lines, too, begin nearer to the soft rim
+    levels.push_back(along[static_cast<std::size_t>(fraction * static_cast<double>(along.size()))]);
   }
   return levels;
 }

@@ -13,14 +13,14 @@ MedianCell::Features array_of(const ShapeVector& shape) {
   return features;
 }
 
-/// Along an axis of the table whose cells go on beyond it: a share of 1 or a tension of nothing is no such end.
+/// Along an axis of the table whose cells go on beyond it: a fraction of 1 or a tension of nothing is no such end.
 bool is_at_end(const CombinedInterpolation& table, const CellCoordinates& cell) {
   constexpr double close = 1e-3;  // of the range
   const CellBox& box = table.box();
   const auto is_at = [&](int x, double end) {
     return std::abs(cell(x) - end) < close * (box.greatest(x) - box.least(x));
   };
-  return (box.greatest(x_share) < 1 && is_at(x_share, box.greatest(x_share))) ||
+  return (box.greatest(x_fraction) < 1 && is_at(x_fraction, box.greatest(x_fraction))) ||
          is_at(x_ratio, box.greatest(x_ratio)) || (box.least(x_ratio) > 0 && is_at(x_ratio, box.least(x_ratio))) ||
          (table.is_elongated() && (is_at(x_axial, box.least(x_axial)) || is_at(x_axial, box.greatest(x_axial))));
 }

@@ -61,7 +61,7 @@ class ModulusMap {
   virtual Interval areas() const = 0;
   virtual Interval deformations(double area_um2) const = 0;
   virtual double modulus_kPa(double area_um2, double deformation) const = 0;
-  /// Share of the region's width and height at the rim, where lines would only follow the noise of the table.
+  /// Fraction of the region's width and height at the rim, where lines would only follow the noise of the table.
   virtual double rim() const { return 0; }
   /// Where a cell of this area and deformation lies in a picture with such pixels.
   virtual PlanePoint seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const = 0;

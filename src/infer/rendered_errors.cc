@@ -76,21 +76,21 @@ double RenderedErrors::scale(int axis, double coordinate) const {
   return axis == x_progress && is_over_mode_3_ ? std::exp(coordinate) : coordinate;
 }
 
-double RenderedErrors::node_place(int axis, double share) const {
-  const double scaled = std::lerp(scale(axis, box_.least(axis)), scale(axis, box_.greatest(axis)), share);
+double RenderedErrors::node_place(int axis, double fraction) const {
+  const double scaled = std::lerp(scale(axis, box_.least(axis)), scale(axis, box_.greatest(axis)), fraction);
   return axis == x_progress && is_over_mode_3_ ? std::log(scaled) : scaled;
 }
 
 ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
   Nodes below{};
-  std::array<double, coordinate_count> share{};
+  std::array<double, coordinate_count> fraction{};
   for (std::size_t axis = 0; axis < coordinate_count; ++axis) {
     const auto a = Eigen::Index(axis);
     const double least = scale(int(axis), box_.least(a)), range = scale(int(axis), box_.greatest(a)) - least;
     const double last = nodes_[axis] - 1;
     const double place = std::clamp((scale(int(axis), cell(a)) - least) / (range > 0 ? range : 1) * last, 0., last);
     below[axis] = std::min(int(place), std::max(nodes_[axis] - 2, 0));
-    share[axis] = place - below[axis];
+    fraction[axis] = place - below[axis];
   }
   ShapeErrors sum;
   for (int corner = 0; corner < 1 << coordinate_count; ++corner) {
@@ -99,7 +99,7 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
     for (std::size_t axis = 0; axis < coordinate_count; ++axis) {
       const int up = corner >> axis & 1;
       number = number * std::size_t(nodes_[axis]) + std::size_t(below[axis] + up);
-      weight *= up ? share[axis] : 1 - share[axis];
+      weight *= up ? fraction[axis] : 1 - fraction[axis];
     }
     if (weight == 0) continue;  // also what would lie beyond a single node
     const auto& node = errors_[number];
@@ -136,13 +136,13 @@ SeenShape with_section(const ShapeErrors& pixels, const ShapeVector& measured, c
   if (sight.section == Section::tube || !measured.allFinite()) return seen;
   constexpr int mode_2 = int(ShapeFeature::first_mode), mode_3 = mode_2 + 1;
   const ShapeVector smooth = measured - added.bias;
-  const double share = cell(x_share);
+  const double fraction = cell(x_fraction);
   const ShapeErrors by_square = change_by_square(
       {.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi / sight.flow.width_um,
        .mode_2 = smooth(mode_2),
        .mode_3 = smooth(mode_3),
-       .cortex_share = share,
-       .cortex_tension = share * cell(x_ratio),
+       .cortex_fraction = fraction,
+       .cortex_tension = fraction * cell(x_ratio),
        .thinning = table_exponent - sight.flow.exponent});
   added.bias += by_square.bias;
   added.covariance += by_square.covariance * sight.error_factor * sight.error_factor;

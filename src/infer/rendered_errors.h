@@ -15,9 +15,9 @@
 
 namespace rheocyte {
 
-/// Bias (measured - true) and covariance of the features of a true shape at a few radii, shares and deformations of a
-/// table, and axial ratios where it has some, by rendering at random positions; linear in the coordinates between them.
-/// Repeatable.
+/// Bias (measured - true) and covariance of the features of a true shape at a few radii, fractions and deformations of
+/// a table, and axial ratios where it has some, by rendering at random positions; linear in the coordinates between
+/// them. Repeatable.
 class RenderedErrors {
  public:
   /// The table must outlive it. The pixel (um) as wide as in the table's channel: pixel size x table's width /
@@ -36,9 +36,9 @@ class RenderedErrors {
   using Nodes = std::array<int, coordinate_count>;
   static std::size_t count_of(const Nodes& nodes);
 
-  /// In which the errors are linear: pixels take a share of the third mode of elongated cells, not of its logarithm.
+  /// In which the errors are linear: pixels take a fraction of the third mode of elongated cells, not of its logarithm.
   double scale(int axis, double coordinate) const;
-  double node_place(int axis, double share) const;
+  double node_place(int axis, double fraction) const;
 
   const CombinedInterpolation& table_;
   double pixel_size_um_;

@@ -70,7 +70,7 @@ void ShapeMap::compare(const MeasuringConditions& conditions, const MeasuredEven
           ratio > 0 && std::isfinite(ratio) && shapes_.has_area(smooth.log_area[k]) ? ratio - e.expected : no_value;
       e.error = inertia_ratio_deviation(events.size[first + i], conditions.pixel_size_um);
       const bool has_deformation = deformation > smooth.deformation_deviation[k] && ratio > 0;
-      e.odd_share = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : no_value;
+      e.odd_fraction = has_deformation ? 1 - deformation_of_ellipse(ratio) / deformation : no_value;
     }
   });
 }

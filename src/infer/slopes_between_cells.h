@@ -27,8 +27,8 @@ struct SlopesBetweenCells {
 };
 SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells);
 
-/// Those of cells that differ from this one in the stiffness alone, at equal area, share, ratio of the cortex' tension,
-/// and axial tension; or in the axial tension alone.
+/// Those of cells that differ from this one in the stiffness alone, at equal area, fraction, ratio of the cortex'
+/// tension, and axial tension; or in the axial tension alone.
 struct PredictedSlopes {
   ModeSlopes by_stiffness, by_tension;
 };

@@ -20,7 +20,7 @@ using Places = std::array<double, ranges.size()>;
 
 /// Each from -1 to 1 in its range.
 Places places_of(const CellInSquare& cell) {
-  Places places{cell.radius, cell.mode_2, cell.mode_3, cell.cortex_share, cell.cortex_tension, cell.thinning};
+  Places places{cell.radius, cell.mode_2, cell.mode_3, cell.cortex_fraction, cell.cortex_tension, cell.thinning};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [least, greatest] = ranges[i];
     places[i] = 2 * (std::clamp(places[i], least, greatest) - least) / (greatest - least) - 1;

@@ -9,9 +9,9 @@ namespace rheocyte {
 struct CellInSquare {
   double radius = 0.6;  ///< of the circle of its area, over half the channel's width
   double mode_2 = 0, mode_3 = 0;
-  double cortex_share = 0;    ///< of E + E2D / r0
-  double cortex_tension = 0;  ///< over r0, as a share of E + E2D / r0
-  double thinning = 0;        ///< exponent of the liquid in the tube less that of the liquid in the square
+  double cortex_fraction = 0;  ///< of E + E2D / r0
+  double cortex_tension = 0;   ///< over r0, as a fraction of E + E2D / r0
+  double thinning = 0;         ///< exponent of the liquid in the tube less that of the liquid in the square
 };
 
 /// Of modes of single cells between the branches of the table: in the median 1e-4, in the mean square 3e-4

@@ -5,7 +5,7 @@
 
 namespace rheocyte {
 
-/// By how much less or more than a solid other cells are changed by the square channel: this share of each change is
+/// By how much less or more than a solid other cells are changed by the square channel: this fraction of each change is
 /// counted as its error (docs/theory-extract.md, sec. "The square channel").
 inline constexpr double left_by_section = 1.0 / 3;
 

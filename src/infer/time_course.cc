@@ -33,18 +33,18 @@ Credible credible(const std::vector<double>& logarithm, const std::vector<double
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return logarithm[i]; });
   const double all = std::accumulate(weight.begin(), weight.end(), 0.0);
-  const auto quantile = [&](double share) {
+  const auto quantile = [&](double fraction) {
     double below = 0, last = 0, last_value = logarithm[order.front()];
     for (const std::size_t i : order) {
       const double middle = (below + weight[i] / 2) / all;
-      if (middle >= share) return std::lerp(last_value, logarithm[i], (share - last) / (middle - last));
+      if (middle >= fraction) return std::lerp(last_value, logarithm[i], (fraction - last) / (middle - last));
       below += weight[i];
       last = middle;
       last_value = logarithm[i];
     }
     return last_value;
   };
-  constexpr double rim = (1 - credible_share) / 2;
+  constexpr double rim = (1 - credible_fraction) / 2;
   return {std::exp(quantile(0.5)), std::exp(quantile(rim)), std::exp(quantile(1 - rim))};
 }
 
@@ -113,16 +113,16 @@ bool TimeCourse::has_area(double area_um2) const { return table_.has_radius(std:
 TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, int count) const {
   const auto moduli = spaced(box.min_modulus, box.max_modulus, count),
              times = spaced(box.min_time, box.max_time, count);
-  const double share = 1 / double(images.size());
+  const double fraction = 1 / double(images.size());
   Eigen::ArrayXXd log_radius = Eigen::ArrayXXd::Zero(count, count), chi_squared = log_radius;
   double guess = 0;  // of ln(radius), as if no area changed
-  for (const CourseImage& image : images) guess += share * std::log(image.area_um2 / std::numbers::pi) / 2;
+  for (const CourseImage& image : images) guess += fraction * std::log(image.area_um2 / std::numbers::pi) / 2;
   const double radius = std::exp(guess);
   std::vector<Tension> tensions;
   for (const CourseImage& image : images) {
     const Tension& tension = tensions.emplace_back(tension_of(image, radius, moduli, times));
     const auto ratio = table_.values(CourseMeasure::area_ratio, radius, image.place_um, moduli, times);
-    log_radius += share * (std::log(image.area_um2 / std::numbers::pi) + tension.log_area - ratio.array().log()) / 2;
+    log_radius += fraction * (std::log(image.area_um2 / std::numbers::pi) + tension.log_area - ratio.array().log()) / 2;
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
     const CourseImage& image = images[i];

@@ -40,7 +40,7 @@ struct DrawnOut {
   double mode_2_excess = no_value, factor = no_value;
 };
 
-inline constexpr double credible_share = 0.9;
+inline constexpr double credible_fraction = 0.9;
 inline constexpr double normal_quantile_of_credible = 1.6448536270;  ///< in standard deviations
 
 struct CourseEstimate {

@@ -11,7 +11,7 @@ enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
 struct Bulk {
   BulkLaw law = BulkLaw::neo_hookean;
   double shear_modulus = 10;  ///< mu / S = E / (3 S)
-  double mooney_share = 0.5;  ///< of the neo-Hookean member in the Mooney-Rivlin law
+  double c1_fraction = 0.5;   ///< of the neo-Hookean member in the Mooney-Rivlin law
   double viscosity = 0;       ///< eta1 U / (R S); acts only while the cell moves
   double branch_modulus = 0;  ///< over S, of a spring in series with the viscosity; 0: none, it acts beside the solid
   double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
@@ -19,11 +19,11 @@ struct Bulk {
   double axial_tension = 0;   ///< of the surroundings along x, over S (eq:axial-tension)
 };
 
-/// Share a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi.
-constexpr double neo_hookean_share(const Bulk& bulk) {
+/// Fraction a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi.
+constexpr double neo_hookean_fraction(const Bulk& bulk) {
   switch (bulk.law) {
     case BulkLaw::linear: return 0;
-    case BulkLaw::mooney_rivlin: return bulk.mooney_share;
+    case BulkLaw::mooney_rivlin: return bulk.c1_fraction;
     case BulkLaw::neo_hookean:
     case BulkLaw::none: return 1;
   }
@@ -51,7 +51,7 @@ Tensor from_rest_shape(Tensor F, double rest_stretch) {
 template <class Tensor>
 Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
   using T = typename Tensor::Scalar;
-  const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
+  const double a = neo_hookean_fraction(bulk), mu = bulk.shear_modulus;
   const Tensor from_rest = bulk.rest_stretch == 1 ? F : from_rest_shape(F, bulk.rest_stretch);
   const Tensor B = from_rest * from_rest.transpose();
   Tensor tau = B * T(mu * a);

@@ -41,9 +41,10 @@ class NumericFlow {
     double sum = 0;
     for (int i = -end; i <= end; ++i) {
       const double t = i * step;
-      const double share = 1 / (1 + std::exp(-std::numbers::pi * std::sinh(t)));
-      const double weight = std::numbers::pi * std::cosh(t) * share / (1 + std::exp(std::numbers::pi * std::sinh(t)));
-      sum += weight * f(from + (to - from) * share);
+      const double fraction = 1 / (1 + std::exp(-std::numbers::pi * std::sinh(t)));
+      const double weight =
+          std::numbers::pi * std::cosh(t) * fraction / (1 + std::exp(std::numbers::pi * std::sinh(t)));
+      sum += weight * f(from + (to - from) * fraction);
     }
     return (to - from) * step * sum;
   }

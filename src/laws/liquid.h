@@ -55,11 +55,11 @@ inline Liquid in_units_of_rate(Liquid liquid, double rate) {
 /// them.
 inline bool is_power_law(LiquidLaw law) { return law == LiquidLaw::newtonian || law == LiquidLaw::power_law; }
 
-/// How far the liquid is from a Newtonian one, and the liquid at a share of that way, in the same units.
+/// How far the liquid is from a Newtonian one, and the liquid at a fraction of that way, in the same units.
 inline double thinning(const Liquid& liquid) { return std::abs(1 - liquid.exponent); }
-inline Liquid at_thinning(Liquid liquid, double share) {
-  liquid.exponent = std::lerp(1.0, liquid.exponent, share);
-  if (share == 0) liquid.law = LiquidLaw::newtonian;
+inline Liquid at_thinning(Liquid liquid, double fraction) {
+  liquid.exponent = std::lerp(1.0, liquid.exponent, fraction);
+  if (fraction == 0) liquid.law = LiquidLaw::newtonian;
   return in_units_of_rate(liquid, 1);
 }
 

@@ -4,8 +4,8 @@
 
 namespace rheocyte {
 
-/// Stretch l along the axis under a tension that is this share of Young's modulus: mu (l^2 - 1 / l) = T with mu = E /
-/// 3; l^(-1/2) across.
+/// Stretch l along the axis under a tension that is this fraction of Young's modulus: mu (l^2 - 1 / l) = T with mu = E
+/// / 3; l^(-1/2) across.
 inline double stretch_by_tension(double axial_ratio) {
   double stretch = 1;
   for (int step = 0; step < 8; ++step)

@@ -52,8 +52,8 @@ double scale_of(const Weighted& points, const Line& line) {
 double huber_weight(double z) { return std::abs(z) <= huber ? 1 : huber / std::abs(z); }
 
 double bisquare_weight(double z) {
-  const double share = z / bisquare;
-  return std::abs(share) < 1 ? (1 - share * share) * (1 - share * share) : 0;
+  const double fraction = z / bisquare;
+  return std::abs(fraction) < 1 ? (1 - fraction * fraction) * (1 - fraction * fraction) : 0;
 }
 
 /// d (z weight) / dz of the bisquare.

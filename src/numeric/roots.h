@@ -12,19 +12,19 @@ inline constexpr int max_root_steps = 200;
 /// safe, else bisection (Chandrupatla 1997, doi 10.1016/S0965-9978(96)00051-8).
 template <class Function>
 double bracketed_root(const Function& f, double a, double b, double tolerance = 0) {
-  double fa = f(a), fb = f(b), share = 0.5;
+  double fa = f(a), fb = f(b), fraction = 0.5;
   for (int step = 0;; ++step) {
     const double best = std::abs(fa) < std::abs(fb) ? a : b;
     const double narrow = 2 * std::numeric_limits<double>::epsilon() * std::abs(best) + tolerance;
     if (fa == 0 || fb == 0 || std::abs(b - a) <= 2 * narrow || step == max_root_steps) return best;
-    const double rim = narrow / std::abs(b - a), x = a + std::clamp(share, rim, 1 - rim) * (b - a), fx = f(x);
+    const double rim = narrow / std::abs(b - a), x = a + std::clamp(fraction, rim, 1 - rim) * (b - a), fx = f(x);
     const bool is_beside_a = (fx > 0) == (fa > 0);
     const double c = is_beside_a ? a : b, fc = is_beside_a ? fa : fb;  // the place that leaves the bracket
     if (!is_beside_a) b = a, fb = fa;
     a = x, fa = fx;
     const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
     const bool is_safe = phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi;
-    share = is_safe ? fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb) : 0.5;
+    fraction = is_safe ? fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb) : 0.5;
   }
 }
 

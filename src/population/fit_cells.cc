@@ -17,13 +17,13 @@ constexpr double least_radius_spread = 0.003, greatest_radius_spread = 1, least_
                  greatest_modulus_spread = 1.5, greatest_artanh = 2.5;
 /// Of the mean of ln r0 and ln E, by a standard deviation of the elongation.
 constexpr double steepest = 1;
-/// Nodes are placed anew until the cells move less than this share of their spreads: far less than the nodes reach.
-constexpr double settled_share = 0.05;
+/// Nodes are placed anew until the cells move less than this fraction of their spreads: far less than the nodes reach.
+constexpr double settled_fraction = 0.05;
 constexpr int most_placings = 6;
 /// Where gates keep less the likelihood has no parabola.
 constexpr double parabolic_kept = 0.3;
-/// A spread below this share of what a single image tells is not known by the parabola.
-constexpr double least_share_of_error = 0.5;
+/// A spread below this fraction of what a single image tells is not known by the parabola.
+constexpr double least_fraction_of_error = 0.5;
 constexpr int profile_steps = 6;
 constexpr double profile_tolerance = 0.01;  ///< in standard errors
 
@@ -111,7 +111,7 @@ class CellFit {
     fitted.cells = CellDistribution::of(population(best_.q));
     fitted.log_likelihood = best_.log_likelihood;
     std::copy_n(best_.at_bound.begin(), population_parameters, fitted.at_bound.begin());
-    fitted.kept_share = likelihood_.kept_share(fitted.law);
+    fitted.kept_fraction = likelihood_.kept_fraction(fitted.law);
     fitted.event_error = error_of_image();
     fitted.state = state(fitted);
     if (settings_.with_shrunken && fitted.state == FitState::fitted) fitted.shrunken = likelihood_.shrunken(fitted.law);
@@ -127,16 +127,16 @@ class CellFit {
       likelihood_.place(CellLaw::of(q));
       const LikelihoodMaximum found = maximise(likelihood_, q, bounds_, held, information_);
       if (!found.is_found) return false;
-      const double moved = moved_share(q, found.q);
+      const double moved = moved_fraction(q, found.q);
       q = found.q;
       best_ = found;
-      if (moved < settled_share) break;
+      if (moved < settled_fraction) break;
     }
     return true;
   }
 
   /// In spreads of the cells.
-  static double moved_share(const LawVector& from, const LawVector& to) {
+  static double moved_fraction(const LawVector& from, const LawVector& to) {
     const CellDistribution cells = CellLaw::of(to).usual;
     const double su = cells.radius_spread, se = cells.modulus_spread;
     LawVector units;
@@ -155,7 +155,7 @@ class CellFit {
 
   FitState state(FittedCells& fitted) const {
     if (start_.measure < start_.noise) return FitState::too_stiff;
-    if (fitted.kept_share < least_kept_share) return FitState::tail;
+    if (fitted.kept_fraction < least_kept_fraction) return FitState::tail;
     const LawVector steps = difference_steps(best_.products);
     const auto covariance = inverse(likelihood_.information(best_.q, steps), best_.at_bound);
     if (!covariance) return FitState::singular;
@@ -225,9 +225,9 @@ class CellFit {
   }
 
   static bool wants_profile(int k, const FittedCells& fitted) {
-    if (fitted.kept_share < parabolic_kept) return true;
+    if (fitted.kept_fraction < parabolic_kept) return true;
     return k == number_of(PopulationParameter::log_modulus_spread) &&
-           fitted.cells.modulus_spread < least_share_of_error * fitted.event_error;
+           fitted.cells.modulus_spread < least_fraction_of_error * fitted.event_error;
   }
 
   /// Where ln L, at its greatest over the other parameters, is lower by z^2 / 2, the parameter of the population. NaN

@@ -9,7 +9,7 @@
 namespace rheocyte {
 
 /// Gates that keep less of the cells tell of a tail alone.
-inline constexpr double least_kept_share = 0.05;
+inline constexpr double least_kept_fraction = 0.05;
 
 enum class FitState {
   fitted,
@@ -38,7 +38,7 @@ struct FittedCells {
   ParameterMatrix covariance = ParameterMatrix::Zero();  ///< of their parameters
   std::array<ParameterInterval, population_parameters> intervals{};
   std::array<bool, population_parameters> at_bound{};  ///< such a parameter has no interval
-  double log_likelihood = 0, kept_share = 1;
+  double log_likelihood = 0, kept_fraction = 1;
   double event_error = 0;                   ///< standard error of ln E of the median cell by a single image
   std::optional<double> least_log_modulus;  ///< of cells too stiff to be seen: the mean is above it at the level
   std::vector<ShrunkenCell> shrunken;       ///< if wanted, in the order of the sample

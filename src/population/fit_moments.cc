@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr int most_steps_of_turn = 40, most_moment_newton_steps = 10;
 /// In standard errors: nearer to the end Newton's method is tried.
 constexpr double most_distance_of_newton = 20;
-/// Steps below this share of a standard error change nothing that is told.
+/// Steps below this fraction of a standard error change nothing that is told.
 constexpr double moment_tolerance = 0.03;
 constexpr double first_damping = 1e-3, greatest_damping = 1e8;
 /// Standard deviations of one number beyond which a normal distribution has one event of 20,000.

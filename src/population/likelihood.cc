@@ -31,8 +31,9 @@ PopulationLikelihood::PopulationLikelihood(const Sample& sample, int threads, in
     : sample_(sample), threads_(threads), node_count_(nodes), events_(sample.events()) {
   for (const EventGroup& group : sample.groups)
     for (const SampleEvent& event : group.events) places_.push_back({&group, &event});
-  std::vector<std::unique_ptr<const KeptShare>> kept(sample.kept.size());
-  in_threads(kept.size(), threads, [&](std::size_t k) { kept[k] = std::make_unique<const KeptShare>(sample.kept[k]); });
+  std::vector<std::unique_ptr<const KeptFraction>> kept(sample.kept.size());
+  in_threads(kept.size(), threads,
+             [&](std::size_t k) { kept[k] = std::make_unique<const KeptFraction>(sample.kept[k]); });
   for (const auto& one : kept) kept_.push_back(*one);
 }
 
@@ -77,10 +78,10 @@ PopulationLikelihood::Value PopulationLikelihood::value(const LawVector& q, bool
   const CellLaw law = CellLaw::of(q);
   const std::size_t of_events = blocks();
   std::vector<Value> values(of_events);
-  std::vector<KeptShare::Answer> shares(kept_.size());
+  std::vector<KeptFraction::Answer> fractions(kept_.size());
   in_threads(of_events + kept_.size(), threads_, [&](std::size_t k) {
     if (k < kept_.size())
-      shares[k] = kept_[k].answer(cells_of(k, law), with_score);
+      fractions[k] = kept_[k].answer(cells_of(k, law), with_score);
     else
       values[k - kept_.size()] = value_of_block(k - kept_.size(), law, with_score);
   });
@@ -91,9 +92,9 @@ PopulationLikelihood::Value PopulationLikelihood::value(const LawVector& q, bool
     all.products += v.products;
   }
   LawVector by_gates = LawVector::Zero();
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    all.log_likelihood -= sample_.kept[k].count * std::log(shares[k].share);
-    by_gates += sample_.kept[k].count * CellLaw::score(shares[k].score, sample_.kept[k].elongation);
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
+    all.log_likelihood -= sample_.kept[k].count * std::log(fractions[k].fraction);
+    by_gates += sample_.kept[k].count * CellLaw::score(fractions[k].score, sample_.kept[k].elongation);
   }
   const LawVector each = by_gates / events_;
   all.products += -all.score * each.transpose() - each * all.score.transpose() + events_ * each * each.transpose();
@@ -114,10 +115,10 @@ LawMatrix PopulationLikelihood::information(const LawVector& q, const LawVector&
   return (information + information.transpose()) / 2;
 }
 
-double PopulationLikelihood::kept_share(const CellLaw& law) const {
+double PopulationLikelihood::kept_fraction(const CellLaw& law) const {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < kept_.size(); ++k) {
-    sum += sample_.kept[k].count * std::log(kept_[k].answer(cells_of(k, law), false).share);
+    sum += sample_.kept[k].count * std::log(kept_[k].answer(cells_of(k, law), false).fraction);
     count += sample_.kept[k].count;
   }
   return count > 0 ? std::exp(sum / count) : 1;
@@ -127,7 +128,7 @@ PopulationLikelihood::Elongations PopulationLikelihood::elongations(const CellLa
   double count = 0, sum = 0, squares = 0;
   for (std::size_t k = 0; k < kept_.size(); ++k) {
     const KeptClass& kept = sample_.kept[k];
-    const double before = kept.count / kept_[k].answer(cells_of(k, law), false).share;
+    const double before = kept.count / kept_[k].answer(cells_of(k, law), false).fraction;
     count += before;
     sum += before * kept.elongation;
     squares += before * (kept.elongation * kept.elongation + kept.elongation_variance);

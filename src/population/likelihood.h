@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "population/event_nodes.h"
-#include "population/kept_share.h"
+#include "population/kept_fraction.h"
 
 namespace rheocyte {
 
@@ -27,7 +27,7 @@ class PopulationLikelihood {
   LawMatrix information(const LawVector& q, const LawVector& steps) const;
 
   /// Of all events together.
-  double kept_share(const CellLaw& law) const;
+  double kept_fraction(const CellLaw& law) const;
   /// Mean and variance of the elongation before the gates, which may keep more of the short cells than of the long
   /// ones.
   struct Elongations {
@@ -52,7 +52,7 @@ class PopulationLikelihood {
   double events_ = 0;
   std::vector<Place> places_;
   std::vector<EventNodes> nodes_;
-  std::vector<KeptShare> kept_;
+  std::vector<KeptFraction> kept_;
 };
 
 }  // namespace rheocyte

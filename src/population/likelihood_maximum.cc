@@ -13,7 +13,7 @@ namespace {
 constexpr int most_newton_steps = 100, most_halvings = 12;
 constexpr double settled_gain = 1e-7;
 /// Gains below this, in ln L: the observed information holds. With the right one the next gain is far smaller.
-constexpr double near_gain = 2, slow_share = 0.2;
+constexpr double near_gain = 2, slow_fraction = 0.2;
 /// Of each parameter at once.
 constexpr double longest_step = 0.7;
 /// A parameter with no curvature of its own has this one.
@@ -101,7 +101,7 @@ class Climb {
   bool find_step() {
     const double last_gain = gain_;
     if (information_) step_by(*information_);
-    if (information_ && (step_.size() == 0 || gain_ >= near_gain || gain_ > slow_share * last_gain))
+    if (information_ && (step_.size() == 0 || gain_ >= near_gain || gain_ > slow_fraction * last_gain))
       information_.reset();
     if (!information_) {
       step_by(value_.products);

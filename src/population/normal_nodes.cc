@@ -23,7 +23,7 @@ double normal_below(double t) { return std::erfc(-t / std::numbers::sqrt2) / 2; 
 /// Of a normal distribution, in its standard deviations.
 struct NormalCut {
   double least, greatest;
-  double share() const {
+  double fraction() const {
     return greatest < 0 ? normal_below(greatest) - normal_below(least) : normal_below(-least) - normal_below(-greatest);
   }
 };
@@ -35,11 +35,11 @@ NormalCut cut_of(const ValueGate& gate, const GatedValue& value) {
 
 /// The mean of the powers of what lies within, up to the fifth.
 std::array<double, 6> moments_within(const NormalCut& cut) {
-  const double share = cut.share();
+  const double fraction = cut.fraction();
   std::array<double, 6> moments{1};
   double lower = normal_density(cut.least), upper = normal_density(cut.greatest);
   for (std::size_t k = 1; k < moments.size(); ++k) {
-    moments[k] = (lower - upper) / share + (k > 1 ? double(k - 1) * moments[k - 2] : 0);
+    moments[k] = (lower - upper) / fraction + (k > 1 ? double(k - 1) * moments[k - 2] : 0);
     if (lower != 0) lower *= cut.least;  // which may be infinite
     if (upper != 0) upper *= cut.greatest;
   }
@@ -96,7 +96,7 @@ NormalNodes normal_nodes(int numbers) {
   return nodes;
 }
 
-double share_within(const ValueGate& gate, const GatedValue& value) { return cut_of(gate, value).share(); }
+double fraction_within(const ValueGate& gate, const GatedValue& value) { return cut_of(gate, value).fraction(); }
 
 /// Smolyak's sum again, with the value as the first number: its mean with the rule above over the others, and the rest
 /// of its own rule with that of the third degree.

@@ -29,7 +29,7 @@ struct GatedValue {
   Eigen::VectorXd slope;  ///< by the numbers; the first one is positive
 };
 
-double share_within(const ValueGate& gate, const GatedValue& value);
+double fraction_within(const ValueGate& gate, const GatedValue& value);
 
 /// Of the numbers whose value passes: the value has the Gauss rule of its own truncated distribution, so that
 /// polynomials up to the fifth degree are exact again. Smooth in the value's mean and slope. More than about a

@@ -35,8 +35,8 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
     CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       const auto work = [&](const TellProgress& report_progress) {
-        return read_course_events(recordings[i], measuring, [&](double share) {
-          report_progress((double(i) + share) / double(recordings.size()));
+        return read_course_events(recordings[i], measuring, [&](double fraction) {
+          report_progress((double(i) + fraction) / double(recordings.size()));
         });
       };
       const auto events = read_isolated(recordings[i], measuring, work, progress, stop);
@@ -64,8 +64,8 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
     const auto shapes = virtual_cells(spec, to_path(name).parent_path());
     AtomicFile file(place);
     try {
-      const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double share) {
-        tell(progress, share);
+      const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double fraction) {
+        tell(progress, fraction);
         if (stop) throw Stopped{};
       });
       file.publish();

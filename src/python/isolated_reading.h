@@ -21,10 +21,10 @@ namespace rheocyte {
 using PythonProgress = std::optional<std::function<void(double)>>;
 
 /// Calls the function of a Python program from a thread without the interpreter's lock.
-inline void tell(const PythonProgress& progress, double share) {
+inline void tell(const PythonProgress& progress, double fraction) {
   if (!progress) return;
   const pybind11::gil_scoped_acquire acquired;
-  (*progress)(share);
+  (*progress)(fraction);
 }
 
 /// What work(report_progress) returns in a child, as bytes (store/bytes.h); nothing if it was stopped. UserError for
@@ -38,10 +38,10 @@ auto read_isolated(const std::filesystem::path& file, const MeasuringOptions& op
   limits.memory_bytes += taken_addresses();
   limits.patience_s = options.patience_s.value_or(default_patience_s);
   limits.is_wanted = [&] { return !stop && !thrown; };
-  auto done = run_isolated(work, limits, [&](double share) {
+  auto done = run_isolated(work, limits, [&](double fraction) {
     if (thrown) return;
     try {
-      tell(progress, share);
+      tell(progress, fraction);
     } catch (...) {
       thrown = std::current_exception();
     }

@@ -41,8 +41,9 @@ py::tuple population(const NamedRecordings& named, const PopulationOptions& opti
       for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
         const auto& file = conditions[c].recordings[j];
         const auto work = [&](const TellProgress& report_progress) {
-          return read_population_events(file, options.measuring, by,
-                                        [&](double share) { report_progress((double(done) + share) / double(all)); });
+          return read_population_events(file, options.measuring, by, [&](double fraction) {
+            report_progress((double(done) + fraction) / double(all));
+          });
         };
         const PopulationEvents events = read_isolated(file, options.measuring, work, progress, stop);
         if (stop) return {};

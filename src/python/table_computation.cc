@@ -52,7 +52,7 @@ class TablePieces {
     folder_.take_over();
   }
 
-  double share_done() const { return static_cast<double>(folder_.done()) / folder_.branches(); }
+  double fraction_done() const { return static_cast<double>(folder_.done()) / folder_.branches(); }
   bool is_complete() const { return work_.missing().empty(); }
 
   // Pieces that are missing and that nobody works on, each with the record of the branch from which it goes on. They
@@ -110,7 +110,7 @@ void bind_table_computation(py::module_& module) {
   py::class_<TablePieces>(module, "TablePieces")
       .def(py::init<const std::string&, const std::string&, const std::vector<std::string>&,
                     const std::filesystem::path&>())
-      .def("share_done", &TablePieces::share_done)
+      .def("fraction_done", &TablePieces::fraction_done)
       .def("is_complete", &TablePieces::is_complete)
       .def("take", &TablePieces::take)
       .def("keep", &TablePieces::keep)

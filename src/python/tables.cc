@@ -129,7 +129,7 @@ py::tuple shapes(const HeldTable& table, const Numbers& area, const Numbers& def
     return array_of(std::move(values));
   };
   return py::make_tuple(column(&ShapeExcess::expected), column(&ShapeExcess::excess), column(&ShapeExcess::error),
-                        column(&ShapeExcess::odd_share));
+                        column(&ShapeExcess::odd_fraction));
 }
 
 // Moduli in the measurement, whose viscosity must be given.

@@ -15,9 +15,9 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double share_of_time = 0.1, share_of_distance = 0.1;
+constexpr double fraction_of_time = 0.1, fraction_of_distance = 0.1;
 /// Of the accuracy that is wanted of the run, what the stationary shape that it is compared with may be off.
-constexpr double share_of_stationary = 0.1;
+constexpr double fraction_of_stationary = 0.1;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
   if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
@@ -38,7 +38,7 @@ std::string told(double deformation, double distance, bool settled) {
 
 /// Where the surface was compressed, and whether anything held it.
 std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
-  constexpr double share_of_rounding = 1e-6;
+  constexpr double fraction_of_rounding = 1e-6;
   const HistoryRow& slack = min_tension(record);
   const HistoryRow& unstable =
       *std::ranges::min_element(record.rows, {}, [](const HistoryRow& row) { return row.measure("stability_margin"); });
@@ -54,7 +54,7 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
   const double greatest = std::ranges::max(record.rows, {}, [](const HistoryRow& row) {
                             return std::abs(row.measure("least_tension_mN_per_m"));
                           }).measure("least_tension_mN_per_m");
-  if (tension >= -share_of_rounding * std::abs(greatest)) return "";
+  if (tension >= -fraction_of_rounding * std::abs(greatest)) return "";
   const bool bends = surface_kind(problem) == SurfaceKind::held;
   return fmt::format(" On the way the surface was compressed (least tension {:.3g} mN/m, {}); {} it against wrinkles.",
                      tension, when(slack), bends ? "its bending stiffness holds" : "the interior holds");
@@ -117,8 +117,8 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   record.stationary_error = stationary.errors.shape.deformation;
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
-  const double d = stationary.shape.deformation, share = d / std::max(d, result.state.deformation_floor);
-  if (settled) result.state.estimated_error = share * (std::abs(distance) + stationary.estimated_error);
+  const double d = stationary.shape.deformation, fraction = d / std::max(d, result.state.deformation_floor);
+  if (settled) result.state.estimated_error = fraction * (std::abs(distance) + stationary.estimated_error);
   const bool is_other_channel =
       problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
   if (settled) result.state.errors = errors_by(stationary, is_other_channel, result.state);
@@ -166,9 +166,9 @@ bool has_settled(const TimeRecord& record, double distance, double accuracy) {
   const double end = record.rows.back().t_us, d = record.rows.back().measure("deformation");
   double before = record.rows.front().measure("deformation");  // at the last step before the last tenth
   for (const HistoryRow& row : record.rows)
-    if (row.t_us <= (1 - share_of_time) * end) before = row.measure("deformation");
+    if (row.t_us <= (1 - fraction_of_time) * end) before = row.measure("deformation");
   const double change = std::abs(d - before);
-  return change < std::max(share_of_distance * distance, accuracy) * std::abs(d);
+  return change < std::max(fraction_of_distance * distance, accuracy) * std::abs(d);
 }
 
 void judge_end(Result& result, TimeRecord& record, const WorkLimits& limits) {
@@ -178,7 +178,7 @@ void judge_end(Result& result, TimeRecord& record, const WorkLimits& limits) {
   if (result.state.outcome.status != Status::stopped)
     if (auto problem = straight_from_here(result, record)) {
       const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL);
-      problem->accuracy = std::min(problem->accuracy, share_of_stationary * wanted);
+      problem->accuracy = std::min(problem->accuracy, fraction_of_stationary * wanted);
       compare_with_stationary(result, record, *problem, limits);
     }
   result.state.outcome.message += told_of_surface(record, result.problem);

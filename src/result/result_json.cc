@@ -77,7 +77,7 @@ std::span<const Field<Result, Json>> outcome_fields() {
        [](const Result& r) { return over(r.input.cell.bulk.young_modulus_kPa, r.state.outcome.reached); }},
       {"cortex_modulus_reached_mN_per_m", "modulus of its cortex; null without an elastic cortex",
        [](const Result& r) { return over(r.input.cell.cortex.modulus_mN_per_m, r.state.outcome.reached); }},
-      {"tension_mN_per_m", "wanted surface tension of the cell, given or a share of the cortex modulus",
+      {"tension_mN_per_m", "wanted surface tension of the cell, given or a fraction of the cortex modulus",
        [](const Result& r) -> Json { return tension_mN_per_m(r.input); }}};
   return fields;
 }

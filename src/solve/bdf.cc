@@ -40,7 +40,7 @@ BdfFormula bdf_formula(std::span<const double> past, int order, double time) {
     formula.weights(i) = slope;
   }
   // The errors of formula and extrapolation are multiples of the same divided difference of order + 2 values.
-  if (int(past.size()) > order) formula.error_share = 1 / (formula.rate * (time - past[order]) + 1);
+  if (int(past.size()) > order) formula.error_fraction = 1 / (formula.rate * (time - past[order]) + 1);
   return formula;
 }
 

@@ -14,7 +14,7 @@ struct BdfFormula {
   double rate = 0;          ///< of the new value
   Eigen::VectorXd weights;  ///< of the past values, the latest first; as many as the order
   /// Local error of the new value over its distance from `extrapolation_weights` of one order more.
-  double error_share = 0;
+  double error_fraction = 0;
 };
 
 /// The formula of an order for a step from past times (the latest first, at least `order`) to `time`.

@@ -22,7 +22,7 @@ constexpr End neo_hookean[] = {{0.05, 2.0049}, {0.1, 2.0060},  {0.15, 2.0027}, {
                                {0.55, 1.9835}, {0.6, 1.9784},  {0.65, 1.9649}, {0.7, 1.9393},  {0.75, 1.9038},
                                {0.8, 1.8608},  {0.85, 1.8209}, {0.9, 1.7857},  {0.95, 1.7614}};
 
-/// Moduli below this share of the least one are refused: far outside the table's error, and what inertia changes.
+/// Moduli below this fraction of the least one are refused: far outside the table's error, and what inertia changes.
 constexpr double far = 0.85, max_reynolds = 0.3;
 /// Where the last state is looked for, above the end and the table's error.
 constexpr double above_end = 1.03;
@@ -31,8 +31,8 @@ double interpolate(std::span<const End> ends, double radius_ratio) {
   const auto inner = ends.subspan(1, ends.size() - 2);
   const auto above = std::ranges::lower_bound(inner, radius_ratio, {}, &End::radius_ratio);
   const End *b = ends.data() + 1 + (above - inner.begin()), *a = b - 1;
-  const double share = (radius_ratio - a->radius_ratio) / (b->radius_ratio - a->radius_ratio);
-  return radius_ratio * std::exp(std::lerp(a->log_modulus, b->log_modulus, share));
+  const double fraction = (radius_ratio - a->radius_ratio) / (b->radius_ratio - a->radius_ratio);
+  return radius_ratio * std::exp(std::lerp(a->log_modulus, b->log_modulus, fraction));
 }
 
 }  // namespace

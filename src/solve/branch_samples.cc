@@ -13,15 +13,15 @@ namespace {
 
 /// At the same compliance cells of higher degrees deform a few per cent less: the way goes so far beyond what is
 /// wanted.
-constexpr double share_beyond = 1.06;
+constexpr double fraction_beyond = 1.06;
 /// The end found at the first degree is not quite that of the higher ones: the last state stays before it, and steps
 /// back where it is beyond.
-constexpr double share_of_end = 0.97, step_back = 0.95;
+constexpr double fraction_of_end = 0.97, step_back = 0.95;
 constexpr int max_steps_back = 14;
 /// States above are more accurate where the last one is farther from the end; an error of those below stays with them.
 constexpr double soft_height = 0.6;
 /// A branch whose last state is closer than this to what is wanted covers it.
-constexpr double share_covered = 0.97;
+constexpr double fraction_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.
 constexpr double min_step = 0.01;
 
@@ -40,15 +40,15 @@ class BranchFollower {
     BranchSamples branch;
     branch.end = walk();
     if (way_.empty() || is_stopped()) return branch;
-    double last = is_passed() ? height_of(share_beyond * wanted_.max_deformation, way_.back().compliance)
-                              : height_of(share_of_end) * way_.back().height;
+    double last = is_passed() ? height_of(fraction_beyond * wanted_.max_deformation, way_.back().compliance)
+                              : height_of(fraction_of_end) * way_.back().height;
     for (int attempt = 0; branch.states.empty() && !is_stopped() && attempt <= max_steps_back; ++attempt) {
       if (attempt > 0) last *= height_of(step_back);
       branch.states = states_to(last);
     }
     if (branch.states.empty()) return branch;
     const StationaryState& softest = branch.states.back();
-    if (branch.end == Status::converged && softest.shape.deformation < share_covered * wanted_.max_deformation)
+    if (branch.end == Status::converged && softest.shape.deformation < fraction_covered * wanted_.max_deformation)
       branch.end = is_at_limit(softest.stability_margin) ? Status::surface_unstable : Status::accuracy_not_reached;
     return branch;
   }
@@ -56,14 +56,14 @@ class BranchFollower {
  private:
   bool is_stopped() const { return branch_.is_stopped(); }
   bool is_at_limit(double margin) const { return margin < wanted_.least_margin + small_margin; }
-  bool is_passed() const { return last_deformation_ > share_beyond * wanted_.max_deformation; }
+  bool is_passed() const { return last_deformation_ > fraction_beyond * wanted_.max_deformation; }
 
   bool goes_by_deformation() const { return wanted_.height == SamplingWay::Height::root_of_deformation; }
   double height_of(double deformation, double compliance) const {
     return goes_by_deformation() ? std::sqrt(deformation) : compliance;
   }
-  /// Of a share of the deformation; near the end of a branch the compliance goes about as the deformation's root.
-  double height_of(double share) const { return std::sqrt(share); }
+  /// Of a fraction of the deformation; near the end of a branch the compliance goes about as the deformation's root.
+  double height_of(double fraction) const { return std::sqrt(fraction); }
 
   /// At its last degree, too.
   bool is_wanted(const StationaryState& state) const {
@@ -93,7 +93,7 @@ class BranchFollower {
     const Problem here = branch_.problem_at(state.parameter);
     if (discrete.stability_margin(here, state.unknowns) < wanted_.least_margin) return false;
     const double d = discrete.deformation(here, state.unknowns);
-    if (d > 1.3 * share_beyond * wanted_.max_deformation) return false;  // rather a nearer one
+    if (d > 1.3 * fraction_beyond * wanted_.max_deformation) return false;  // rather a nearer one
     way_.push_back({state.parameter, height_of(d, state.parameter), state.unknowns});
     last_deformation_ = d;
     return true;
@@ -155,8 +155,8 @@ class BranchFollower {
       return guess;
     }
     const Milestone &a = *(beyond - 1), &b = *beyond;
-    const double share = std::log(height / a.height) / std::log(b.height / a.height);
-    const double compliance = a.compliance * std::pow(b.compliance / a.compliance, share);
+    const double fraction = std::log(height / a.height) / std::log(b.height / a.height);
+    const double compliance = a.compliance * std::pow(b.compliance / a.compliance, fraction);
     const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
     return {compliance, height, (1 - way) * a.unknowns + way * b.unknowns};
   }

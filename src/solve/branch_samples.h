@@ -19,7 +19,7 @@ struct SamplingWay {
   double max_deformation = 1;
   double least_margin = 0;      ///< of the surface from its limit (surface_stability.h)
   std::vector<double> heights;  ///< of the states; ascending, the last one 1
-  /// What heights are shares of, at the last state: the root of the deformation, or the compliance where cells are
+  /// What heights are fractions of, at the last state: the root of the deformation, or the compliance where cells are
   /// deformed by something else than the flow, too.
   enum class Height { root_of_deformation, compliance };
   Height height = Height::root_of_deformation;

@@ -15,8 +15,8 @@ VectorXd ChordMixing::correction(NonlinearSystem& system, const VectorXd& x, con
     of_x.col(Eigen::Index(i)) = changes_[i].x;
     of_residual.col(Eigen::Index(i)) = changes_[i].residual;
   }
-  const VectorXd shares = least_squares(of_residual, residual);
-  return system.solve(of_residual * shares - residual) - of_x * shares;
+  const VectorXd fractions = least_squares(of_residual, residual);
+  return system.solve(of_residual * fractions - residual) - of_x * fractions;
 }
 
 void ChordMixing::forget() {

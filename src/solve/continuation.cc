@@ -32,16 +32,16 @@ NewtonReport enter_branch(const Path& path, const ContinuationOptions& options, 
   double reached = 0, step = way > 0 ? std::min(1.0, thinning_step / way) : 1;
   int iterations = 0;
   for (bool first = true; first || (way > 0 && reached < 1);) {
-    const double share = first ? 0 : 1 - reached - step < 1e-9 ? 1 : reached + step;
-    media.liquid = at_thinning(liquid, share);
+    const double fraction = first ? 0 : 1 - reached - step < 1e-9 ? 1 : reached + step;
+    media.liquid = at_thinning(liquid, fraction);
     VectorXd trial = unknowns;
     NewtonOptions newton_options = options.newton;
-    if (way > 0 && share < 1) newton_options.tolerance = std::max(tolerance_between, newton_options.tolerance);
+    if (way > 0 && fraction < 1) newton_options.tolerance = std::max(tolerance_between, newton_options.tolerance);
     report = newton(path.system(compliance), media, newton_options, trial);
     report.iterations = iterations += report.iterations;
     if (report.status == Status::converged) {
       unknowns = trial;
-      reached = share;
+      reached = fraction;
       first = false;
     } else {
       step /= 2;

@@ -10,7 +10,7 @@ namespace rheocyte {
 
 /// A converged state on the branch.
 struct BranchState {
-  double parameter = 0;  ///< of the path: the compliance, or the share of the way between two problems
+  double parameter = 0;  ///< of the path: the compliance, or the fraction of the way between two problems
   VectorXd unknowns;
   VectorXd tangent;  ///< d(unknowns)/d(parameter); may be empty where a branch is entered
   int newton_iterations = 0;

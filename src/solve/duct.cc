@@ -48,9 +48,9 @@ std::array<double, 2> tensions(const Cortex& cortex, double along, const Eigen::
   const auto inverse_square = [](double stretch) { return 1 / (stretch * stretch); };
   const double whole = inverse_square(principal(0)) - inverse_square(principal(1));
   // Squared cosine of the angle between the silhouette and the first principal direction.
-  const double share =
+  const double fraction =
       whole == 0 ? 1 : std::clamp((inverse_square(along) - inverse_square(principal(1))) / whole, 0.0, 1.0);
-  return {share * T1 + (1 - share) * T2, share * T2 + (1 - share) * T1};
+  return {fraction * T1 + (1 - fraction) * T2, fraction * T2 + (1 - fraction) * T1};
 }
 
 /// The surface along a silhouette.
@@ -120,7 +120,7 @@ void read_turning(const DuctDiscrete& discrete, const VectorXd& unknowns, StateN
   r.tilt = outline_tilt(outline, hull_asymmetry(outline).sine_modes, 1);
 }
 
-/// A cell off the axis keeps about its share of a width that changes, and the mesh is that of the narrow part.
+/// A cell off the axis keeps about its fraction of a width that changes, and the mesh is that of the narrow part.
 double offset_in_mesh(const Problem& problem, double half_width) {
   if (problem.wall.is_straight()) return problem.offset;
   const double most = max_offset(half_width, problem.radius_ratio);
@@ -128,11 +128,11 @@ double offset_in_mesh(const Problem& problem, double half_width) {
 }
 
 /// Spokes to the edge of the box must not lead below the cell where the wall slants, but soft cells, which the funnel
-/// draws out, need a long box: by the share of the width at which a cell starts.
-void shorten_box(double share, DuctShape& shape) {
+/// draws out, need a long box: by the fraction of the width at which a cell starts.
+void shorten_box(double fraction, DuctShape& shape) {
   constexpr double least = 0.2, greatest = 0.5;
   const double usual = disturbed_half_length(shape.radius, shape.extent), r0 = shape.radius,
-               way = std::clamp((std::abs(share) - least) / (greatest - least), 0.0, 1.0);
+               way = std::clamp((std::abs(fraction) - least) / (greatest - least), 0.0, 1.0);
   shape.box = std::lerp(usual, r0 + 0.4, way);
   shape.edge = std::lerp(usual, 0.83 * r0, way);
 }
@@ -313,12 +313,12 @@ Geometry duct_geometry(const Problem& problem) {
   duct.fine = {.tolerance = 1e-10, .iteration_limit = problem.offset == 0 ? 5 : 12, .chord_reduction = 0.5};
   duct.begins_with_way = true;
   duct.adds_lower_change = true;
-  duct.errors = {.share_of_change_before = 0.1, .min_of_two = 6e-4};
+  duct.errors = {.fraction_of_change_before = 0.1, .min_of_two = 6e-4};
   if (problem.offset == 0) {
-    duct.errors.share_of_first_change = 0.7;
-    if (problem.liquid.law != LiquidLaw::newtonian) duct.errors.share_of_margin = 0.08;
+    duct.errors.fraction_of_first_change = 0.4;
+    if (problem.liquid.law != LiquidLaw::newtonian) duct.errors.fraction_of_margin = 0.08;
   } else {
-    duct.errors.share_of_outline = 0.2;
+    duct.errors.fraction_of_outline = 0.2;
   }
   return duct;
 }

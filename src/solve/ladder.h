@@ -23,14 +23,15 @@ struct ResolvedState {
 
 /// How errors follow from the last rungs.
 struct ErrorRule {
-  double share_of_change_before = 0.5;  ///< of the change before the last one
-  double share_of_first_change = 2;     ///< where there is no change before
-  double min_of_two = 2e-5;             ///< no first change is trusted below this: neighbours may agree by chance
-  double share_of_inertia = 0;  ///< nor below this share of the change of the inertia ratio: two seldom do at once
-  double share_of_margin = 0;   ///< nor below this share of the change of the stability margin: where the surface nears
-                                ///< its limit deformations agree long before they are right
-  double share_of_outline = 0;  ///< nor, in any change, below this share of the root mean square change of the
-                                ///< outline's modes
+  double fraction_of_change_before = 0.5;  ///< of the change before the last one
+  double fraction_of_first_change = 2;     ///< where there is no change before
+  double min_of_two = 2e-5;                ///< no first change is trusted below this: neighbours may agree by chance
+  double fraction_of_inertia =
+      0;                          ///< nor below this fraction of the change of the inertia ratio: two seldom do at once
+  double fraction_of_margin = 0;  ///< nor below this fraction of the change of the stability margin: where the surface
+                                  ///< nears its limit deformations agree long before they are right
+  double fraction_of_outline = 0;  ///< nor, in any change, below this fraction of the root mean square change of the
+                                   ///< outline's modes
 };
 
 /// Error of the last of some values of the deformation on ever finer resolutions, relative to it

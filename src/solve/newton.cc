@@ -9,8 +9,8 @@ namespace rheocyte {
 
 namespace {
 
-/// A full step may reduce the least det of the mesh to this share at most; else it is shortened.
-constexpr double min_det_share = 0.2;
+/// A full step may reduce the least det of the mesh to this fraction at most; else it is shortened.
+constexpr double min_det_fraction = 0.2;
 constexpr int max_halvings = 5;
 /// Residuals (relative) above which an iteration is given up as diverging.
 constexpr double hopeless_residual = 1e6;
@@ -18,11 +18,11 @@ constexpr double hopeless_residual = 1e6;
 /// Takes the longest step 1, 1/2, 1/4, ... that does not fold the mesh; returns whether there is one.
 bool step(NonlinearSystem& system, const Media& media, const VectorXd& correction, VectorXd& x, Residual& residual) {
   const double det_before = residual.min_det;
-  double share = 1;
-  for (int i = 0; i <= max_halvings; ++i, share /= 2) {
-    const VectorXd candidate = x + share * correction;
+  double fraction = 1;
+  for (int i = 0; i <= max_halvings; ++i, fraction /= 2) {
+    const VectorXd candidate = x + fraction * correction;
     residual = system.residual(media, candidate);
-    if (residual.min_det > min_det_share * det_before) {
+    if (residual.min_det > min_det_fraction * det_before) {
       x = candidate;
       return true;
     }

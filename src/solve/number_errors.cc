@@ -12,7 +12,7 @@ double size_of(const StateMeasure& measure, double value) { return measure.is_de
 
 /// How much changes from the last but one of some states to the last one.
 struct LastChange {
-  double outline;     ///< as in change_of_outline, or a share of that of the surface's stretch at single points
+  double outline;     ///< as in change_of_outline, or a fraction of that of the surface's stretch at single points
   double points = 0;  ///< the greatest relative change of a number at single points
 
   explicit LastChange(std::span<const StateNumbers> rungs) {
@@ -26,8 +26,8 @@ struct LastChange {
       if (unit_of(measure.name).dimension == no_unit.dimension) stretch = std::max(stretch, change / size);
     }
     // Outlines may agree by chance; the stretch at one point, which is right later, hardly does then, too.
-    constexpr double share_of_stretch = 1e-3;
-    outline = std::max(change_of_outline(before, last), share_of_stretch * stretch);
+    constexpr double fraction_of_stretch = 1e-3;
+    outline = std::max(change_of_outline(before, last), fraction_of_stretch * stretch);
   }
 };
 
@@ -47,15 +47,15 @@ double error_with_others(const StateMeasure& measure, std::span<const double> va
 
 }  // namespace
 
-double error_of_last(std::span<const double> values, double share_of_change_before) {
+double error_of_last(std::span<const double> values, double fraction_of_change_before) {
   const std::size_t n = values.size();
   if (n < 2) return std::numeric_limits<double>::infinity();
   const double change = values[n - 1] - values[n - 2];
   if (n == 2) return 2 * std::abs(change);
   const double before = values[n - 2] - values[n - 3];
   const double ratio = before == 0 ? 0 : std::min(change / before, 0.9);
-  const double share = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
-  return std::max(share * std::abs(change), share_of_change_before * std::abs(before));
+  const double fraction = ratio < 0 ? 1 : std::max(0.5, ratio / (1 - ratio));  // below 0: changes of alternating sign
+  return std::max(fraction * std::abs(change), fraction_of_change_before * std::abs(before));
 }
 
 double change_of_outline(const StateNumbers& before, const StateNumbers& after) {

@@ -7,9 +7,9 @@
 namespace rheocyte {
 
 /// Error of the last of some values of a number on ever finer resolutions (docs/theory.md, eq:error): the last change
-/// times the rest of a geometric series, and half of the last change and a share of the one before at least; of two
+/// times the rest of a geometric series, and half of the last change and a fraction of the one before at least; of two
 /// values twice their difference. In the number's unit; infinite for a single value.
-double error_of_last(std::span<const double> values, double share_of_change_before = 0.5);
+double error_of_last(std::span<const double> values, double fraction_of_change_before = 0.5);
 
 /// Root mean square change of the modes of the outline's radius.
 double change_of_outline(const StateNumbers&, const StateNumbers&);

@@ -10,7 +10,7 @@
 namespace rheocyte {
 namespace {
 
-/// Share of the present pressure drop that the controller leaves alone.
+/// Fraction of the present pressure drop that the controller leaves alone.
 constexpr double controller_inertia = 0.9;
 
 constexpr double folded = 1e-3;  ///< least volume of an element, in that at rest, that a shape may have
@@ -85,11 +85,11 @@ double PartitionedStepper::controlled_pressure(const VectorXd& unknowns) const {
 TimeLevel PartitionedStepper::level_at(double time) const {
   if (state_.levels.size() < 2) return now();
   const TimeLevel& before = state_.levels[1];
-  const double share = (time - before.time) / (now().time - before.time);
+  const double fraction = (time - before.time) / (now().time - before.time);
   TimeLevel level;
   level.time = time;
-  level.unknowns = share * now().unknowns + (1 - share) * before.unknowns;
-  level.position = share * now().position + (1 - share) * before.position;
+  level.unknowns = fraction * now().unknowns + (1 - fraction) * before.unknowns;
+  level.position = fraction * now().position + (1 - fraction) * before.position;
   level.frame_acceleration = now().frame_acceleration;  // that of the step
   return level;
 }

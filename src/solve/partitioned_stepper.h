@@ -8,7 +8,7 @@ namespace rheocyte {
 
 struct PartitionedOptions {
   double step = 2e-3;        ///< in R/U
-  double relaxation = 0.25;  ///< share of the new traction in each step
+  double relaxation = 0.25;  ///< fraction of the new traction in each step
 };
 
 class PartitionedStepper final : public Stepper {

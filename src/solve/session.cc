@@ -42,17 +42,17 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
 ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geometry, const ProgressCallback& report,
                                   const WorkLimits& limits, SolveStatistics& work) {
   const Problem target = at_end_of_branch(problem);
-  const double share = problem.bulk.shear_modulus / target.bulk.shear_modulus;
+  const double fraction = problem.bulk.shear_modulus / target.bulk.shear_modulus;
   ResolvedBranch to_end(
       target, geometry,
       [&](BranchStep step) {
-        step.compliance *= share;
+        step.compliance *= fraction;
         report(step);
       },
       limits);
   ResolvedState state = to_end.follow(Search::quick);
   work += to_end.take_statistics();
-  state.branch.parameter *= share;
+  state.branch.parameter *= fraction;
   if (state.status != Status::stopped) state.status = Status::surface_unstable;
   return state;
 }

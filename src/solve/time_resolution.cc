@@ -11,9 +11,9 @@ namespace rheocyte {
 namespace {
 
 /// Of the ladder that the coarse resolutions are judged by, in the wanted accuracy.
-constexpr double share_of_reference = 0.1;
+constexpr double fraction_of_reference = 0.1;
 /// Of the wanted accuracy that the stationary shape may use up: the way to it is not as smooth.
-constexpr double share_of_stationary = 0.5;
+constexpr double fraction_of_stationary = 0.5;
 /// The quarter of a duct that a funnel leaves has four to five times the unknowns of a square's stationary state.
 constexpr int greatest_chosen_in_ducts = 5;
 
@@ -29,7 +29,7 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const Wor
   straight.wall = {};
   straight.offset = shape_of(problem).offset;
   if (!problem.tension_profile.is_even()) axial_tension(straight) = problem.tension_profile.tension.back();
-  straight.accuracy = share_of_reference * accuracy;
+  straight.accuracy = fraction_of_reference * accuracy;
   if (problem.bulk.shear_modulus == 0 && problem.bulk.branch_modulus > 0) return usual_time_resolution_of(problem);
   const Geometry geometry = solver_geometry(straight);
   if (geometry.knows_ends && is_far_too_soft(straight)) return usual_time_resolution_of(problem);
@@ -42,7 +42,7 @@ Resolution resolution_in_time(const Problem& problem, double accuracy, const Wor
   const double best = ladder.deformation();
   for (std::size_t i = 0; i + 1 < ladder.rungs.size(); ++i) {
     const double error = std::abs(ladder.numbers[i].shape.deformation / best - 1) + ladder.estimated_error;
-    if (error <= share_of_stationary * accuracy) return chosen(problem, ladder.rungs[i].discrete->resolution());
+    if (error <= fraction_of_stationary * accuracy) return chosen(problem, ladder.rungs[i].discrete->resolution());
   }
   return chosen(problem, ladder.rungs.back().discrete->resolution());
 }

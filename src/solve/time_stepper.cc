@@ -183,8 +183,9 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   trial.level.velocities = moving_->node_velocities(trial.level.unknowns);
   if (media_.bulk.branch_modulus > 0) trial.level.branch = moving_->branch_metric(media_.bulk, trial.level.unknowns);
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
-  const double share = levels > order ? trial.formula.error_share : 0.5;  // the first step has nothing to compare with
-  trial.error = share * surface_change(trial.level.unknowns - guess, trial.formula.rate);
+  const double fraction =
+      levels > order ? trial.formula.error_fraction : 0.5;  // the first step has nothing to compare with
+  trial.error = fraction * surface_change(trial.level.unknowns - guess, trial.formula.rate);
   return trial;
 }
 
@@ -192,8 +193,9 @@ StepErrors TimeStepper::errors(const Trial& trial, int order) const {
   StepErrors result{-1, trial.error, -1};
   const std::vector<double> past = times(state_);
   const auto error_at = [&](int other) {
-    const double share = bdf_formula(past, other, trial.level.time).error_share;
-    return share * surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time), trial.formula.rate);
+    const double fraction = bdf_formula(past, other, trial.level.time).error_fraction;
+    return fraction *
+           surface_change(trial.level.unknowns - extrapolate(other + 1, trial.level.time), trial.formula.rate);
   };
   if (order > 1) result.below = error_at(order - 1);
   const bool settled = state_.steps_at_order > order && order < options_.max_order;

@@ -70,7 +70,7 @@ std::unique_ptr<Stepper> make_stepper(const Problem& problem, const TimeRun& run
 /// that a run that was continued ends where it would have ended in one go.
 bool has_settled(const Stepper& stepper) {
   // Steps that become as short as this, in the time gone, end a run that finds no more states: they show no rate.
-  constexpr double share_left = 1e-4, share_of_noise = 1e-6, share_of_time = 1e-4;
+  constexpr double fraction_left = 1e-4, fraction_of_noise = 1e-6, fraction_of_time = 1e-4;
   constexpr int intervals = 4;
   if (stepper.problem().offset != 0) return false;  // it drifts as long as it is on its way
   const std::vector<TimeLevel>& levels = stepper.state().levels;
@@ -79,12 +79,12 @@ bool has_settled(const Stepper& stepper) {
   double rate_after = 0, middle_after = 0;
   for (int i = 0; i < intervals; ++i) {
     const double step = levels[i].time - levels[i + 1].time, middle = (levels[i].time + levels[i + 1].time) / 2;
-    if (step < share_of_time * levels[0].time) return false;
+    if (step < fraction_of_time * levels[0].time) return false;
     const double moved = stepper.system().largest_displacement(levels[i].unknowns - levels[i + 1].unknowns);
     const double rate = moved / step;
     const bool falls = i > 0 && rate > rate_after && rate_after > 0;
     const double left = falls ? rate * (middle_after - middle) / std::log(rate / rate_after) : HUGE_VAL;
-    if (i > 0 && !(left < share_left * gone) && !(moved < share_of_noise * gone)) return false;
+    if (i > 0 && !(left < fraction_left * gone) && !(moved < fraction_of_noise * gone)) return false;
     rate_after = rate;
     middle_after = middle;
   }
@@ -103,12 +103,12 @@ class TimeFollower {
 
   bool has_settled() const { return settled_; }
   /// "12 % of the way": how far it has come.
-  std::string share() const {
+  std::string fraction() const {
     const bool by_place = std::isfinite(run_.end_position);
-    double share = 0;
+    double fraction = 0;
     if (!stepper_->state().levels.empty())
-      share = by_place ? stepper_->now().place() / run_.end_position : stepper_->now().time / run_.end;
-    return fmt::format("{:.4g} % of the {}", 100 * share, by_place ? "way" : "time");
+      fraction = by_place ? stepper_->now().place() / run_.end_position : stepper_->now().time / run_.end;
+    return fmt::format("{:.4g} % of the {}", 100 * fraction, by_place ? "way" : "time");
   }
 
   StationaryState follow(const TimeStart* from) {
@@ -230,7 +230,7 @@ class TimeFollower {
                          settled_ ? "until it had settled" : "to the end", degree_);
     const TimeLevel& now = stepper_->now();
     if (status == Status::stopped)
-      return fmt::format("Stopped by a signal at {}; --continue goes on from there.", share());
+      return fmt::format("Stopped by a signal at {}; --continue goes on from there.", fraction());
     const char* why = run_.scheme == TimeScheme::partitioned
                           ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
                             "drawn out or wrinkles"
@@ -238,7 +238,7 @@ class TimeFollower {
     const bool can_be_finer = !stepper_->has_passed_walls(now) && degree_ < max_time_degree_of(stepper_->problem());
     const std::string coarse =
         can_be_finer ? fmt::format(", or the wall is too steep for the mesh, try time.degree = {}", degree_ + 1) : "";
-    return fmt::format("No step in time succeeds beyond {} ({}): {}{}; the last good state is kept.", share(),
+    return fmt::format("No step in time succeeds beyond {} ({}): {}{}; the last good state is kept.", fraction(),
                        name(status), why, coarse);
   }
 
@@ -251,7 +251,7 @@ class TimeFollower {
 };
 
 /// What the changes to a coarser mesh count for beside those to a finer one, as in a duct (eq:square-error).
-constexpr double share_of_change_before = 0.1;
+constexpr double fraction_of_change_before = 0.1;
 
 using Deformations = std::vector<double>;  // output by output
 
@@ -267,7 +267,7 @@ TimeObserver noting(Deformations& deformations, TimeObserver observer) {
 struct OtherRun {
   int degree = 0;
   Status status = Status::not_started;
-  std::string share;  ///< of the way
+  std::string fraction;  ///< of the way
   std::vector<TimePoint> steps = {};
   StateNumbers numbers = {};   ///< of the last state
   double greatest_change = 0;  ///< of a deformation at an output, over the greatest one
@@ -286,7 +286,7 @@ OtherRun run_on(const Resolution& resolution, const Problem& problem, const Time
     greatest = std::max(greatest, deformations[i]);
     change = std::max(change, std::abs(deformations[i] - compared[i]));
   }
-  return {resolution.degree, end.outcome.status, follower.share(), std::move(steps), end, change / greatest};
+  return {resolution.degree, end.outcome.status, follower.fraction(), std::move(steps), end, change / greatest};
 }
 
 std::string told(const OtherRun& other, double change) {
@@ -298,7 +298,7 @@ std::string told(const OtherRun& other, double change) {
 std::string told_of_failure(const OtherRun& other) {
   return fmt::format(
       " How far it is off is not known: the run to compare with, on a mesh of degree {}, ended at {} ({}).",
-      other.degree, other.share, name(other.status));
+      other.degree, other.fraction, name(other.status));
 }
 
 /// From a second run, on a mesh that is a degree coarser: the change is the error of that one, and that of the first
@@ -341,8 +341,8 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
   std::vector<double> deformations_of_ladder;
   for (const StateNumbers& rung : ladder) deformations_of_ladder.push_back(rung.shape.deformation);
   const double d_fine = fine.numbers.shape.deformation, change_to_fine = std::abs(d_fine - d) / size,
-               left =
-                   rheocyte::estimate_error(deformations_of_ladder, {.share_of_change_before = share_of_change_before});
+               left = rheocyte::estimate_error(deformations_of_ladder,
+                                               {.fraction_of_change_before = fraction_of_change_before});
   result.estimated_error = change_to_fine + left * d_fine / size;
   result.errors = distance(result, fine.numbers);
   add_errors(1, errors_of_last(ladder, left), result.errors);

@@ -226,7 +226,7 @@ Geometry tube_geometry(const Problem& problem) {
   tube.fine.tolerance = 1e-10;
   tube.climbs_anew = true;
   tube.judges_rungs = true;
-  tube.errors.share_of_inertia = 0.3;
+  tube.errors.fraction_of_inertia = 0.3;
   return tube;
 }
 

@@ -32,7 +32,7 @@ bool has_same_channel(const Problem& a, const Problem& b) {
 double distance(const Problem& a, const Problem& b) {
   return std::max(
       {relative_change(a.radius_ratio, b.radius_ratio), relative_change(a.bulk.shear_modulus, b.bulk.shear_modulus),
-       std::abs(a.bulk.mooney_share - b.bulk.mooney_share), relative_change(a.cortex.modulus, b.cortex.modulus),
+       std::abs(a.bulk.c1_fraction - b.bulk.c1_fraction), relative_change(a.cortex.modulus, b.cortex.modulus),
        relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
        relative_change(a.liquid.exponent, b.liquid.exponent),
        relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr DWORD share_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+constexpr DWORD fraction_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
 Claiming opened(const fs::path& path, DWORD access, DWORD sharing, DWORD how, DWORD flags) {
   const HANDLE handle = ::CreateFileW(path.c_str(), access, sharing, nullptr, how, flags, nullptr);
@@ -25,7 +25,7 @@ Claiming opened(const fs::path& path, DWORD access, DWORD sharing, DWORD how, DW
 }
 
 Claiming opened_file(const fs::path& path, DWORD how) {
-  return opened(path, GENERIC_READ | GENERIC_WRITE, share_all, how,
+  return opened(path, GENERIC_READ | GENERIC_WRITE, fraction_all, how,
                 FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT);
 }
 

@@ -15,7 +15,7 @@ namespace rheocyte {
 namespace {
 
 constexpr int width = 30;
-constexpr double seconds_between_lines = 10, seconds_between_shares = 2, seconds_between_words = 0.2;
+constexpr double seconds_between_lines = 10, seconds_between_fractions = 2, seconds_between_words = 0.2;
 
 std::string duration(double seconds) {
   const int s = int(std::lround(seconds));
@@ -40,7 +40,7 @@ std::function<void()> now_and_then(std::function<void()> tell) {
 
 void FileProgress::operator()(double fraction) {
   const int percent = static_cast<int>(100 * fraction);
-  if (quiet_ || percent == percent_ || seconds_since(last_line_) < seconds_between_shares) return;
+  if (quiet_ || percent == percent_ || seconds_since(last_line_) < seconds_between_fractions) return;
   last_line_ = std::chrono::steady_clock::now();
   percent_ = percent;
   tell(fmt::format("{}: {} %", name_, percent));

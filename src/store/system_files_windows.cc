@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr DWORD share_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+constexpr DWORD fraction_all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
 /// Also of folders, for which Windows wants its own flag.
 class OpenHandle {
  public:
   OpenHandle(const fs::path& path, DWORD access, DWORD how, DWORD flags = 0)
-      : handle_(
-            ::CreateFileW(path.c_str(), access, share_all, nullptr, how, FILE_FLAG_BACKUP_SEMANTICS | flags, nullptr)),
+      : handle_(::CreateFileW(path.c_str(), access, fraction_all, nullptr, how, FILE_FLAG_BACKUP_SEMANTICS | flags,
+                              nullptr)),
         failed_(handle_ == INVALID_HANDLE_VALUE ? last_error() : 0) {}
   ~OpenHandle() {
     if (handle_ != INVALID_HANDLE_VALUE) ::CloseHandle(handle_);

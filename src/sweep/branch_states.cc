@@ -11,8 +11,8 @@ namespace {
 /// Ever finer resolutions; a state is accurate if the one before gives the same deformation.
 const std::array<Resolution, 5> resolutions = {
     {{{2, 4, 1, 2}, 6}, {{2, 4, 1, 2}, 8}, {{3, 6, 1, 2}, 8}, {{3, 6, 1, 2}, 10}, {{4, 8, 2, 2}, 10}}};
-/// The error of a level is taken as this share of the change from the level before.
-constexpr double share_of_change = 0.5;
+/// The error of a level is taken as this fraction of the change from the level before.
+constexpr double fraction_of_change = 0.5;
 /// Of Newton's method; on the level before, whose state only tells the error, less will do.
 constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
 /// Displacement of the first state, in r0; its deformation is some 1e-5.
@@ -99,12 +99,13 @@ BranchStates::Way BranchStates::enter_round() {
 }
 
 BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
-  const auto problem_at = [this](double share) {
+  const auto problem_at = [this](double fraction) {
     SweepPoint place = place_;
-    place.axial_ratio = share * axial_ratio_;
+    place.axial_ratio = fraction * axial_ratio_;
     return problem_of(case_at(spec_, place, first_stiffness_));
   };
-  Path drawing = stiffness_path(at_level(0).system(), [&](double share) { return media_at(problem_at(share), 1); });
+  Path drawing =
+      stiffness_path(at_level(0).system(), [&](double fraction) { return media_at(problem_at(fraction), 1); });
   drawing.origin = -std::numeric_limits<double>::infinity();
   ContinuationOptions options = continuation();
   options.accept = [&](const NonlinearSystem& system, const BranchState& state) {
@@ -154,7 +155,7 @@ double BranchStates::error_of(const BranchNode& node) {
   const NewtonReport report = newton(before.system(), media_at(problem(node.u), 1), options, unknowns);
   count(report.iterations);
   if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
-  return share_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
+  return fraction_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
 }
 
 bool BranchStates::refine(BranchNode& node) {

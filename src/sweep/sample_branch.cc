@@ -24,8 +24,8 @@ constexpr double first_growth = 2;
 constexpr double steep = 4;
 /// Change of ln d between two samples against the trapezoidal rule of its slopes.
 constexpr double max_mismatch = 0.15;
-/// Between two samples the error of the interpolation may be this share of the accuracy.
-constexpr double share_of_interpolation = 0.15;
+/// Between two samples the error of the interpolation may be this fraction of the accuracy.
+constexpr double fraction_of_interpolation = 0.15;
 
 /// Newton's failure at the end of a branch is the end of the branch.
 BranchEnd end_after(Status failure) {
@@ -131,7 +131,7 @@ class BranchSampler {
     const double trapezoid = h * (log_progress_slope(before) + log_progress_slope(next)) / 2;
     double allowed = nodes_.size() < 2 ? first_growth / growth * h : max_step;
     if (std::abs(change - trapezoid) > max_mismatch * std::abs(change) + 1e-6) allowed = h / 2;
-    const double wanted = share_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
+    const double wanted = fraction_of_interpolation * spec_.accuracy, off = middle_mismatch(before, next);
     if (off > wanted) allowed = std::min(allowed, h * std::max(0.4, std::cbrt(wanted / off)));
     if (nodes_.size() < 2) return allowed;
     const double f4 = std::max(fourth_derivative(nodes_[nodes_.size() - 2], before, next), 1e-12);
@@ -162,7 +162,7 @@ class BranchSampler {
   SampledBranch finish(const BranchEnd& end, std::chrono::steady_clock::time_point start) const {
     SampledBranch result;
     result.radius_um = place_.radius_um;
-    result.cortex_share = place_.cortex_share;
+    result.cortex_fraction = place_.cortex_fraction;
     result.tension_ratio = place_.tension_ratio;
     result.axial_ratio = place_.axial_ratio;
     // A stop looks like a failure to whatever it interrupts.
@@ -204,7 +204,7 @@ SampledBranch sample_regularised_branch(const TableSpec& spec, const SampledBran
   constexpr double overlap = 1.25;  // of the stiffness
   if (!can_be_regularised(spec, own)) return {};
   const double stiffness = std::min(overlap * own.stiffness.back(), own.stiffness.front());
-  const SweepPoint place{own.radius_um, own.cortex_share, own.tension_ratio, own.axial_ratio};
+  const SweepPoint place{own.radius_um, own.cortex_fraction, own.tension_ratio, own.axial_ratio};
   SampledBranch branch = BranchSampler(regularised_spec(spec), place, stop).from_stiffness(stiffness);
   branch.bending_kBT = spec.bending_beyond_kBT;
   return branch;

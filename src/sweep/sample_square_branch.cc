@@ -15,7 +15,7 @@ namespace {
 /// Of elongated cells. In units of 1 / S, far below the compliance of cells whose asymmetry can be seen.
 constexpr double margin_of_elongated = 0.2, first_compliance_of_elongated = 4e-4;
 
-/// Shares of sqrt(d) at the last state: the points of Chebyshev's polynomials between the least one and 1.
+/// Fractions of sqrt(d) at the last state: the points of Chebyshev's polynomials between the least one and 1.
 std::vector<double> heights(int count) {
   constexpr double least = 0.05;
   return chebyshev_points(least, 1, count);

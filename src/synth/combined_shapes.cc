@@ -40,7 +40,7 @@ std::variant<CellShape, NoShape> CombinedShapes::shape(const VirtualCell& cell) 
       ratios.size() == 1 || !(cortex > 0) ? ratios.front() : cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
   CellCoordinates place = CellCoordinates::Zero();
   place(x_radius) = std::log(radius);
-  place(x_share) = cortex / radius / S;
+  place(x_fraction) = cortex / radius / S;
   place(x_ratio) = ratio;
   place(x_axial) = 1e-3 * cell.axial_tension_Pa / scale.modulus / S;
   return scaled(at(place, std::log(S)), scale);
@@ -51,7 +51,7 @@ std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double
   const CellBox& box = between_.box();
   if (cell(x_radius) < box.least(x_radius)) return NoShape::too_small;
   if (cell(x_radius) > box.greatest(x_radius)) return NoShape::too_large;
-  for (const int x : {x_share, x_ratio})
+  for (const int x : {x_fraction, x_ratio})
     if (!(cell(x) >= box.least(x) && cell(x) <= box.greatest(x))) return NoShape::outside_sheets;
   if (!(cell(x_axial) >= box.least(x_axial) && cell(x_axial) <= box.greatest(x_axial)))
     return NoShape::outside_tensions;
@@ -103,10 +103,10 @@ std::string CombinedShapes::description() const {
   const auto& radii = between_.radii_um();
   const CellBox& box = between_.box();
   return fmt::format(
-      "simulated branches of combined cells, {} radii from {:.4g} to {:.4g} um, shares of the cortex from {:g} to "
+      "simulated branches of combined cells, {} radii from {:.4g} to {:.4g} um, fractions of the cortex from {:g} to "
       "{:g}, "
       "tensions from {:g} to {:g} E2D, {} up to {:.3g}",
-      radii.size(), radii.front() * width, radii.back() * width, box.least(x_share), box.greatest(x_share),
+      radii.size(), radii.front() * width, radii.back() * width, box.least(x_fraction), box.greatest(x_fraction),
       box.least(x_ratio), box.greatest(x_ratio),
       between_.is_elongated()
           ? fmt::format("axial tensions from {:g} to {:g} S, third modes", box.least(x_axial), box.greatest(x_axial))

@@ -8,15 +8,15 @@
 
 namespace rheocyte {
 
-/// A cell is scaled to the channel of the simulations (eq:scaling) and found in the table by its radius, share of the
-/// cortex, tension and stiffness (eq:combined). Area and deformation are those of the table's interpolation. With the
-/// contours of the branches the points, in units of the radius, are the sum of those of the same branches at the same
-/// deformation, with the same weights. A table as one file has none: then the outline is the one of twelve modes whose
-/// hull has the table's modes; the contour within a dent is not there, nor what the hull's corners make of higher
+/// A cell is scaled to the channel of the simulations (eq:scaling) and found in the table by its radius, fraction of
+/// the cortex, tension and stiffness (eq:combined). Area and deformation are those of the table's interpolation. With
+/// the contours of the branches the points, in units of the radius, are the sum of those of the same branches at the
+/// same deformation, with the same weights. A table as one file has none: then the outline is the one of twelve modes
+/// whose hull has the table's modes; the contour within a dent is not there, nor what the hull's corners make of higher
 /// modes.
 class CombinedShapes : public CellShapes {
  public:
-  /// All contours with the same points (asserted). UserError: fewer than two radii or shares.
+  /// All contours with the same points (asserted). UserError: fewer than two radii or fractions.
   CombinedShapes(const TableSpec& spec, std::vector<SampledBranch> branches, const SimulatedCells& cells);
   /// By a table as one file. UserError as above.
   CombinedShapes(const CombinedTable& table, const SimulatedCells& cells);

@@ -22,8 +22,8 @@ Eigen::MatrixX2d resampled(const Eigen::MatrixX2d& outline, Eigen::Index count) 
     const double place = length.back() * static_cast<double>(k) / static_cast<double>(count);
     while (length[static_cast<std::size_t>(piece) + 1] < place) ++piece;
     const double start = length[static_cast<std::size_t>(piece)], end = length[static_cast<std::size_t>(piece) + 1];
-    const double share = end > start ? (place - start) / (end - start) : 0;
-    points.row(k) = (1 - share) * outline.row(piece) + share * outline.row((piece + 1) % n);
+    const double fraction = end > start ? (place - start) / (end - start) : 0;
+    points.row(k) = (1 - fraction) * outline.row(piece) + fraction * outline.row((piece + 1) % n);
   }
   return points;
 }

@@ -21,8 +21,8 @@ double bell(double t) { return std::exp(-t * t); }
 double distance_to_piece(const Eigen::RowVector2d& point, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
   const Eigen::RowVector2d along = b - a;
   const double length2 = along.squaredNorm();
-  const double share = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0;
-  return (point - a - share * along).norm();
+  const double fraction = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0;
+  return (point - a - fraction * along).norm();
 }
 
 // The distance (pixels) of the centres of pixels from the outline where it is less than `reach`, else `reach`.

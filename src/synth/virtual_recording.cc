@@ -223,12 +223,12 @@ void write_metadata(const SynthSpec& spec, const RecordingProvenance& provenance
   file.add_metadata("imaging:roi position y", std::int64_t{0});
   file.add_metadata("imaging:roi size x", static_cast<std::int64_t>(size.width));
   file.add_metadata("imaging:roi size y", static_cast<std::int64_t>(size.height));
-  constexpr double sheath_share = 0.75;  // of the flow, as usual
+  constexpr double sheath_fraction = 0.75;  // of the flow, as usual
   file.add_metadata("setup:channel width", spec.channel_width_um);
   file.add_metadata("setup:chip region", std::string("channel"));
   file.add_metadata("setup:flow rate", spec.flow_rate_ul_s);
-  file.add_metadata("setup:flow rate sample", (1 - sheath_share) * spec.flow_rate_ul_s);
-  file.add_metadata("setup:flow rate sheath", sheath_share * spec.flow_rate_ul_s);
+  file.add_metadata("setup:flow rate sample", (1 - sheath_fraction) * spec.flow_rate_ul_s);
+  file.add_metadata("setup:flow rate sheath", sheath_fraction * spec.flow_rate_ul_s);
   file.add_metadata("setup:identifier", std::string("virtual"));
   file.add_metadata("setup:medium", spec.medium.empty() ? std::string("other") : spec.medium);
   file.add_metadata("setup:module composition", std::string("virtual"));

@@ -28,7 +28,7 @@ std::string reason(Status status) {
 // The place of a stiffness: the interval behind a sample, and how far in it, 0 .. 1 in ln(stiffness).
 struct Place {
   int sample = 0;
-  double share = 0, width = 0;  ///< width: of the interval in ln(stiffness), negative
+  double fraction = 0, width = 0;  ///< width: of the interval in ln(stiffness), negative
 };
 
 Place place_of(const SampledBranch& branch, double stiffness) {
@@ -80,7 +80,7 @@ class Piece {
 
 double piece_value(const SampledBranch& branch, const Place& place, Measure measure) {
   if (branch.samples() == 1) return branch.at(0, measure);
-  return Piece(branch, place.sample, place.width, measure).at(place.share);
+  return Piece(branch, place.sample, place.width, measure).at(place.fraction);
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ Eigen::MatrixX2d interpolate_contour(const SampledBranch& branch, double stiffne
   const Place place = place_of(branch, stiffness);
   const auto first = std::size_t(place.sample);
   if (branch.samples() == 1) return branch.contour.front();
-  const auto w = hermite(place.share);
+  const auto w = hermite(place.fraction);
   return w.first * branch.contour[first] + w.last * branch.contour[first + 1] +
          place.width * (w.first_slope * branch.contour_slope[first] + w.last_slope * branch.contour_slope[first + 1]);
 }
@@ -117,8 +117,8 @@ double stiffness_at(const SampledBranch& branch, Measure measure, double value) 
     if ((here - value) * (next - value) >= 0) continue;
     const double stiff = branch.stiffness[std::size_t(i)], soft = branch.stiffness[std::size_t(i) + 1];
     const double width = std::log(soft / stiff);
-    const double share = Piece(branch, i, width, measure).place_of(value);
-    return std::clamp(stiff * std::exp(share * width), soft, stiff);
+    const double fraction = Piece(branch, i, width, measure).place_of(value);
+    return std::clamp(stiff * std::exp(fraction * width), soft, stiff);
   }
   return no_value;
 }

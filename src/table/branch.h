@@ -65,8 +65,8 @@ struct SampledBranch {
   BranchEnd end;
   int solves = 0, newton_iterations = 0, refused = 0;  ///< refused: states that were wrinkled or not accurate
   double seconds = 0, factorisation_seconds = 0;
-  double cortex_share = 0, tension_ratio = 0;  ///< of combined cells, see SweepPoint
-  double axial_ratio = 0;                      ///< of elongated cells, likewise
+  double cortex_fraction = 0, tension_ratio = 0;  ///< of combined cells, see SweepPoint
+  double axial_ratio = 0;                         ///< of elongated cells, likewise
 
   bool empty() const { return stiffness.empty(); }
   int samples() const { return int(stiffness.size()); }

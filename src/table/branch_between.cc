@@ -37,8 +37,8 @@ std::vector<double> inner_weights(const std::vector<double>& places, double at) 
 /// ln(deformation) from which and up to which a branch takes part.
 struct Heights {
   double first, last;
-  double at(double share) const { return (1 - share) * first + share * last; }
-  double share(double height) const { return (height - first) / (last - first); }
+  double at(double fraction) const { return (1 - fraction) * first + fraction * last; }
+  double fraction(double height) const { return (height - first) / (last - first); }
 };
 
 std::vector<Heights> heights_of(const TableSpec& spec, Branches near) {
@@ -77,20 +77,20 @@ VectorXd state_at(const SampledBranch& branch, double height) {
   return state;
 }
 
-/// The shares of the samples of a branch, and those in their middles.
-std::vector<double> shares_of(const SampledBranch& branch, const Heights& heights) {
-  std::vector<double> samples{0}, shares;
+/// The fractions of the samples of a branch, and those in their middles.
+std::vector<double> fractions_of(const SampledBranch& branch, const Heights& heights) {
+  std::vector<double> samples{0}, fractions;
   for (int i = 0; i < branch.samples(); ++i) {
-    const double share = heights.share(std::log(branch.at(i, Measure::deformation)));
-    if (share > samples.back() + 1e-3 && share < 1 - 1e-3) samples.push_back(share);
+    const double fraction = heights.fraction(std::log(branch.at(i, Measure::deformation)));
+    if (fraction > samples.back() + 1e-3 && fraction < 1 - 1e-3) samples.push_back(fraction);
   }
   samples.push_back(1);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    shares.push_back(samples[i]);
-    shares.push_back((samples[i] + samples[i + 1]) / 2);
+    fractions.push_back(samples[i]);
+    fractions.push_back((samples[i] + samples[i + 1]) / 2);
   }
-  shares.push_back(1);
-  return shares;
+  fractions.push_back(1);
+  return fractions;
 }
 
 /// Branches on their way to the one between them.
@@ -108,22 +108,22 @@ class Between {
   SampledBranch branch() && {
     const auto by_distance = [&](const SampledBranch* b) { return std::abs(b->radius_um - branch_.radius_um); };
     const auto nearest = std::ranges::min_element(near_, {}, by_distance) - near_.begin();
-    const auto shares = shares_of(*near_[std::size_t(nearest)], heights_[std::size_t(nearest)]);
-    const int n = int(shares.size());
+    const auto fractions = fractions_of(*near_[std::size_t(nearest)], heights_[std::size_t(nearest)]);
+    const int n = int(fractions.size());
     branch_.value.resize(n, measure_count);
     branch_.slope.resize(n, measure_count);
     for (int i = 0; i < n; ++i)
-      if (!add(i, shares[std::size_t(i)])) return {};
+      if (!add(i, fractions[std::size_t(i)])) return {};
     branch_.end = near_[std::size_t(nearest)]->end;
     return std::move(branch_);
   }
 
  private:
   /// By polynomials across the branches; empty if one of them has no such state.
-  VectorXd state(double share, const std::vector<double>& weights) const {
+  VectorXd state(double fraction, const std::vector<double>& weights) const {
     VectorXd sum;
     for (std::size_t k = 0; k < near_.size(); ++k) {
-      const VectorXd one = state_at(*near_[k], heights_[k].at(share));
+      const VectorXd one = state_at(*near_[k], heights_[k].at(fraction));
       if (one.size() == 0) return {};
       if (k == 0) sum.setZero(one.size());
       sum += weights[k] * one;
@@ -131,10 +131,10 @@ class Between {
     return sum;
   }
 
-  bool add(int i, double share) {
-    const double low = std::max(share - small_height, 0.0), high = std::min(share + small_height, 1.0);
-    const VectorXd here = state(share, weights_), below = state(low, weights_), above = state(high, weights_),
-                   inner = state(share, inner_weights_);
+  bool add(int i, double fraction) {
+    const double low = std::max(fraction - small_height, 0.0), high = std::min(fraction + small_height, 1.0);
+    const VectorXd here = state(fraction, weights_), below = state(low, weights_), above = state(high, weights_),
+                   inner = state(fraction, inner_weights_);
     if (here.size() == 0 || below.size() == 0 || above.size() == 0) return false;
     const VectorXd slope = (above - below) / (above(0) - below(0));  // d/d ln(stiffness)
     if (!slope.allFinite()) return false;
@@ -148,16 +148,16 @@ class Between {
     const Eigen::Index points = (here.size() - 1 - measure_count) / 2;
     branch_.contour.push_back(here.tail(2 * points).reshaped(points, 2));
     branch_.contour_slope.push_back(slope.tail(2 * points).reshaped(points, 2));
-    branch_.error.push_back(error_at(share) + std::abs((here(0) - inner(0)) * slope(1 + int(Measure::deformation))));
+    branch_.error.push_back(error_at(fraction) + std::abs((here(0) - inner(0)) * slope(1 + int(Measure::deformation))));
     return true;
   }
 
   /// Of the states that are interpolated.
-  double error_at(double share) const {
+  double error_at(double fraction) const {
     double error = 0;
     for (std::size_t k = 0; k < near_.size(); ++k) {
       if (weights_[k] < 0.5 / double(near_.size())) continue;  // the nearest ones
-      const VectorXd one = state_at(*near_[k], heights_[k].at(share));
+      const VectorXd one = state_at(*near_[k], heights_[k].at(fraction));
       error = std::max(error, point_at(*near_[k], std::exp(one(0))).error);
     }
     return error;

@@ -13,8 +13,8 @@ namespace rheocyte {
 std::string family_of(const TableSpec&, const SampledBranch&);
 
 /// Polynomials in ln(radius) through the states at equal heights of branches of one family (ascending radii, at least
-/// two). A height is the share of the way from the first to the last ln(deformation). Empty if there are heights that
-/// one of them does not have.
+/// two). A height is the fraction of the way from the first to the last ln(deformation). Empty if there are heights
+/// that one of them does not have.
 SampledBranch branch_between(const TableSpec&, std::span<const SampledBranch* const> near, double radius_um);
 
 /// How far a predicted branch is off.

@@ -59,8 +59,8 @@ class EndPolygon {
     const auto above = std::ranges::upper_bound(ends_, log_area, {}, [](const End& e) { return e.point.log_area; });
     if (above == ends_.end()) return ends_.back().point.log_deformation;
     const auto &a = (above - 1)->point, &b = above->point;
-    const double share = (log_area - a.log_area) / (b.log_area - a.log_area);
-    return a.log_deformation + share * (b.log_deformation - a.log_deformation);
+    const double fraction = (log_area - a.log_area) / (b.log_area - a.log_area);
+    return a.log_deformation + fraction * (b.log_deformation - a.log_deformation);
   }
 
   bool is_between_ends(double log_area) const {

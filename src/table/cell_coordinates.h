@@ -9,7 +9,7 @@ namespace rheocyte {
 /// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have if
 /// this grew in proportion to 1 / S all along the branch: where the tension is as great as S it does not.
 inline constexpr int x_radius = 0,                ///< ln(r0 / um)
-    x_share = 1,                                  ///< of the cortex in S
+    x_fraction = 1,                               ///< of the cortex in S
     x_progress = 2,                               ///< its logarithm
     x_ratio = 3,                                  ///< tension of the cortex over its modulus
     x_axial = 4, coordinate_count = x_axial + 1;  ///< axial tension over S

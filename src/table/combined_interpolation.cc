@@ -34,8 +34,8 @@ CellFunction between_nodes(std::span<const double> nodes, const CellCoordinates&
   if (nodes.size() == 1) return f(below);
   const double low = nodes[std::size_t(below)], width = nodes[std::size_t(below) + 1] - low;
   const double inside = std::clamp((cell(coordinate) - low) / width, 0., 1.);
-  const CellFunction share{inside, CellCoordinates::Unit(coordinate) / width};
-  return share.complement() * f(below) + share * f(below + 1);
+  const CellFunction fraction{inside, CellCoordinates::Unit(coordinate) / width};
+  return fraction.complement() * f(below) + fraction * f(below + 1);
 }
 
 template <class Value>
@@ -97,9 +97,9 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
                                                              const SweepPoint& wanted) const {
   const auto is_it = [&](const CombinedBranch& branch) {
     const auto& place = branch.place;
-    return place.radius_um == wanted.radius_um && place.cortex_share == wanted.cortex_share &&
+    return place.radius_um == wanted.radius_um && place.cortex_fraction == wanted.cortex_fraction &&
            place.axial_ratio == wanted.axial_ratio &&
-           (place.tension_ratio == wanted.tension_ratio || place.cortex_share == 0);
+           (place.tension_ratio == wanted.tension_ratio || place.cortex_fraction == 0);
   };
   const auto found = std::ranges::find_if(table.branches, is_it);
   if (found == table.branches.end()) return {};
@@ -111,19 +111,20 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
 
 CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
     : radii_(distinct(table, [](const SweepPoint& place) { return place.radius_um; })),
-      shares_(distinct(table, [](const SweepPoint& place) { return place.cortex_share; })),
+      fractions_(distinct(table, [](const SweepPoint& place) { return place.cortex_fraction; })),
       ratios_(table.spec.tension_ratios),
       axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {
-  if (radii_.size() < 2 || shares_.size() < 2)
-    throw UserError(fmt::format("{}: the combined table has branches of {} radii and {} shares; it needs two of each.",
-                                table.spec.identifier, radii_.size(), shares_.size()));
+  if (radii_.size() < 2 || fractions_.size() < 2)
+    throw UserError(
+        fmt::format("{}: the combined table has branches of {} radii and {} fractions; it needs two of each.",
+                    table.spec.identifier, radii_.size(), fractions_.size()));
   for (const double radius : radii_) log_radii_.push_back(std::log(radius));
   double least = -1e9, greatest = -1e9;
   for (const double axial : axial_ratios_)
     for (const double ratio : ratios_)
-      for (const double share : shares_)
+      for (const double fraction : fractions_)
         for (const double radius : radii_) {
-          const Curve& curve = curves_.emplace_back(curve_at(table, {radius, share, ratio, axial}));
+          const Curve& curve = curves_.emplace_back(curve_at(table, {radius, fraction, ratio, axial}));
           if (!curve.is_own) continue;
           least = std::max(least, curve.place.front());
           greatest = std::max(greatest, curve.place.back());
@@ -133,14 +134,14 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
         fmt::format("{}: no branch of the combined table has cells that deform the more the softer they are.",
                     table.spec.identifier));
   fill_gaps();
-  box_.least << log_radii_.front(), shares_.front(), least, ratios_.front(), axial_ratios_.front();
-  box_.greatest << log_radii_.back(), shares_.back(), greatest, ratios_.back(), axial_ratios_.back();
+  box_.least << log_radii_.front(), fractions_.front(), least, ratios_.front(), axial_ratios_.front();
+  box_.greatest << log_radii_.back(), fractions_.back(), greatest, ratios_.back(), axial_ratios_.back();
 }
 
 // What is scaled hardly varies from branch to branch: where one is missing, which is outside the table, its neighbour
-// in radius, else in share, leads back in.
+// in radius, else in fraction, leads back in.
 void CombinedInterpolation::fill_gaps() {
-  const auto radii = radii_.size(), sheet = radii * shares_.size();
+  const auto radii = radii_.size(), sheet = radii * fractions_.size();
   const auto fill = [&](std::size_t first, std::size_t count, std::size_t stride) {
     for (std::size_t i = 0; i < count; ++i) {
       Curve& gap = curves_[first + i * stride];
@@ -151,22 +152,22 @@ void CombinedInterpolation::fill_gaps() {
   };
   for (std::size_t row = 0; row < curves_.size(); row += radii) fill(row, radii, 1);
   for (std::size_t column = 0; column < curves_.size(); ++column)
-    if (column % sheet < radii) fill(column, shares_.size(), radii);
+    if (column % sheet < radii) fill(column, fractions_.size(), radii);
 }
 
-const CombinedInterpolation::Curve& CombinedInterpolation::curve(int sheet, int share, int radius) const {
-  const auto shares = shares_.size(), radii = radii_.size();
-  return curves_[(std::size_t(sheet) * shares + std::size_t(share)) * radii + std::size_t(radius)];
+const CombinedInterpolation::Curve& CombinedInterpolation::curve(int sheet, int fraction, int radius) const {
+  const auto fractions = fractions_.size(), radii = radii_.size();
+  return curves_[(std::size_t(sheet) * fractions + std::size_t(fraction)) * radii + std::size_t(radius)];
 }
 
-bool CombinedInterpolation::reaches(int sheet, int share, const CellCoordinates& cell) const {
+bool CombinedInterpolation::reaches(int sheet, int fraction, const CellCoordinates& cell) const {
   const double progress = cell(x_progress);
   const int below = interval_of(log_radii_, cell(x_radius));
-  return curve(sheet, share, below).reaches(progress) && curve(sheet, share, below + 1).reaches(progress);
+  return curve(sheet, fraction, below).reaches(progress) && curve(sheet, fraction, below + 1).reaches(progress);
 }
 
 bool CombinedInterpolation::sheet_reaches(int sheet, const CellCoordinates& cell) const {
-  const int below = interval_of(shares_, cell(x_share));
+  const int below = interval_of(fractions_, cell(x_fraction));
   return reaches(sheet, below, cell) && reaches(sheet, below + 1, cell);
 }
 
@@ -194,25 +195,27 @@ CellFunction CombinedInterpolation::end(const Curve& branch) const {
   return {branch.is_own ? branch.place.back() : no_branch};
 }
 
-CellFunction CombinedInterpolation::end(int sheet, int share, const CellCoordinates& cell) const {
-  return between_nodes(log_radii_, cell, x_radius, [&](int i) { return end(curve(sheet, share, i)); });
+CellFunction CombinedInterpolation::end(int sheet, int fraction, const CellCoordinates& cell) const {
+  return between_nodes(log_radii_, cell, x_radius, [&](int i) { return end(curve(sheet, fraction, i)); });
 }
 
 CellFunction CombinedInterpolation::sheet_end(int sheet, const CellCoordinates& cell) const {
-  return between_nodes(shares_, cell, x_share, [&](int j) { return end(sheet, j, cell); });
+  return between_nodes(fractions_, cell, x_fraction, [&](int j) { return end(sheet, j, cell); });
 }
 
 CellFunction CombinedInterpolation::axial_end(int axial, const CellCoordinates& cell) const {
   return between_nodes(ratios_, cell, x_ratio, [&](int i) { return sheet_end(sheet_of(axial, i), cell); });
 }
 
-std::vector<NodeWeight> CombinedInterpolation::radius_weights(int sheet, int share, const CellCoordinates& cell) const {
+std::vector<NodeWeight> CombinedInterpolation::radius_weights(int sheet, int fraction,
+                                                              const CellCoordinates& cell) const {
   return axis_weights(log_radii_, cell, x_radius,
-                      [&](int i) { return part_of(end(curve(sheet, share, i)), cell(x_progress)); });
+                      [&](int i) { return part_of(end(curve(sheet, fraction, i)), cell(x_progress)); });
 }
 
-std::vector<NodeWeight> CombinedInterpolation::share_weights(int sheet, const CellCoordinates& cell) const {
-  return axis_weights(shares_, cell, x_share, [&](int j) { return part_of(end(sheet, j, cell), cell(x_progress)); });
+std::vector<NodeWeight> CombinedInterpolation::fraction_weights(int sheet, const CellCoordinates& cell) const {
+  return axis_weights(fractions_, cell, x_fraction,
+                      [&](int j) { return part_of(end(sheet, j, cell), cell(x_progress)); });
 }
 
 std::vector<NodeWeight> CombinedInterpolation::ratio_weights(int axial, const CellCoordinates& cell) const {
@@ -233,10 +236,10 @@ std::vector<CombinedInterpolation::CurveWeight> CombinedInterpolation::curve_wei
     for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell)) {
       const int sheet = sheet_of(axial, ratio);
       const CellFunction of_sheet = of_axial * of_ratio;
-      for (const auto& [share, of_share] : share_weights(sheet, cell)) {
-        const CellFunction of_row = of_sheet * of_share;
-        for (const auto& [radius, of_radius] : radius_weights(sheet, share, cell))
-          if (const Curve& found = curve(sheet, share, radius); !found.place.empty())
+      for (const auto& [fraction, of_fraction] : fraction_weights(sheet, cell)) {
+        const CellFunction of_row = of_sheet * of_fraction;
+        for (const auto& [radius, of_radius] : radius_weights(sheet, fraction, cell))
+          if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
             all.push_back({&found, of_row * of_radius});
       }
     }

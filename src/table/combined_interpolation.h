@@ -43,11 +43,12 @@ struct BranchWeight {
 };
 
 /// Cubics along the branches in ln of the progress, of quantities that hardly vary there; between the branches
-/// polynomials through up to four radii, four shares, four tensions of the cortex and four axial ratios. Where a branch
-/// ends it goes straight on, and farther and farther beyond its end it counts less and less: nothing jumps there.
+/// polynomials through up to four radii, four fractions, four tensions of the cortex and four axial ratios. Where a
+/// branch ends it goes straight on, and farther and farther beyond its end it counts less and less: nothing jumps
+/// there.
 class CombinedInterpolation {
  public:
-  /// At least two radii and two shares, the same radii in all sheets; UserError otherwise.
+  /// At least two radii and two fractions, the same radii in all sheets; UserError otherwise.
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
@@ -68,7 +69,7 @@ class CombinedInterpolation {
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
     int branch = -1;      ///< of the table
-    bool is_own = false;  ///< else there is none, and the curve is that of the nearest radius or share that has one
+    bool is_own = false;  ///< else there is none, and the curve is that of the nearest radius or fraction that has one
     std::vector<double> place;
     std::vector<Row> value, slope;
     bool reaches(double log_progress) const {
@@ -88,28 +89,28 @@ class CombinedInterpolation {
   void fill_gaps();
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
-  const Curve& curve(int sheet, int share, int radius) const;
+  const Curve& curve(int sheet, int fraction, int radius) const;
   /// Value, and slope over ln of the progress.
   static std::pair<Row, Row> along(const Curve& branch, double progress);
   /// All curves of which a cell is a weighted sum.
   std::vector<CurveWeight> curve_weights(const CellCoordinates& cell) const;
   /// Of the branches on an axis at a cell. What one of them counts falls smoothly to nothing beyond its end.
-  std::vector<NodeWeight> radius_weights(int sheet, int share, const CellCoordinates& cell) const;
-  std::vector<NodeWeight> share_weights(int sheet, const CellCoordinates& cell) const;
+  std::vector<NodeWeight> radius_weights(int sheet, int fraction, const CellCoordinates& cell) const;
+  std::vector<NodeWeight> fraction_weights(int sheet, const CellCoordinates& cell) const;
   std::vector<NodeWeight> ratio_weights(int axial, const CellCoordinates& cell) const;
   std::vector<NodeWeight> axial_weights(const CellCoordinates& cell) const;
-  /// The progress at which branches end: of one, and linearly between two radii, then two shares, then two tensions.
+  /// The progress at which branches end: of one, and linearly between two radii, then two fractions, then two tensions.
   CellFunction end(const Curve& branch) const;
-  CellFunction end(int sheet, int share, const CellCoordinates& cell) const;
+  CellFunction end(int sheet, int fraction, const CellCoordinates& cell) const;
   CellFunction sheet_end(int sheet, const CellCoordinates& cell) const;
   CellFunction axial_end(int axial, const CellCoordinates& cell) const;
-  bool reaches(int sheet, int share, const CellCoordinates& cell) const;
-  /// With the two shares beside the cell's; with the two tensions of the cortex, too.
+  bool reaches(int sheet, int fraction, const CellCoordinates& cell) const;
+  /// With the two fractions beside the cell's; with the two tensions of the cortex, too.
   bool sheet_reaches(int sheet, const CellCoordinates& cell) const;
   bool axial_reaches(int axial, const CellCoordinates& cell) const;
 
-  std::vector<double> radii_, log_radii_, shares_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
-  std::vector<Curve> curves_;  ///< radius by radius, share by share, sheet by sheet
+  std::vector<double> radii_, log_radii_, fractions_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
+  std::vector<Curve> curves_;  ///< radius by radius, fraction by fraction, sheet by sheet
   CellBox box_;
 };
 

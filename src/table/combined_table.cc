@@ -20,7 +20,7 @@ constexpr int leading_columns = 8;  // before the features, without the next one
 constexpr int axial_column = 3;     // of elongated cells, between the others
 
 std::vector<std::string> column_names(const TableSpec& spec) {
-  std::vector<std::string> names{"radius_um",        "cortex_share",      "tension_ratio",
+  std::vector<std::string> names{"radius_um",        "cortex_fraction",   "tension_ratio",
                                  "stiffness_kPa",    "young_modulus_kPa", "cortex_modulus_mN_per_m",
                                  "tension_mN_per_m", "deformation_error"};
   if (spec.is_elongated()) names.insert(names.begin() + axial_column, "axial_ratio");
@@ -37,7 +37,7 @@ Eigen::VectorXd modes_of(const Eigen::MatrixX2d& meridian) {
 CombinedBranch combined_branch(const SampledBranch& branch) {
   constexpr double step = 1e-4;  // in ln S; the hull's corners make differences over smaller steps no better
   const int n = branch.samples();
-  CombinedBranch combined{{branch.radius_um, branch.cortex_share, branch.tension_ratio, branch.axial_ratio},
+  CombinedBranch combined{{branch.radius_um, branch.cortex_fraction, branch.tension_ratio, branch.axial_ratio},
                           branch.stiffness,
                           Eigen::MatrixXd(n, feature_count),
                           Eigen::MatrixXd(n, feature_count),
@@ -59,10 +59,10 @@ CombinedBranch combined_branch(const SampledBranch& branch) {
 }
 
 std::string row_text(const TableSpec& spec, const CombinedBranch& branch, int i) {
-  const auto& [radius, share, ratio, axial] = branch.place;
-  const double S = branch.stiffness_kPa[std::size_t(i)], cortex = share * S * radius;
-  std::vector<double> numbers{radius,          share,  ratio,          S,
-                              (1 - share) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
+  const auto& [radius, fraction, ratio, axial] = branch.place;
+  const double S = branch.stiffness_kPa[std::size_t(i)], cortex = fraction * S * radius;
+  std::vector<double> numbers{
+      radius, fraction, ratio, S, (1 - fraction) * S, cortex, ratio * cortex, branch.error[std::size_t(i)]};
   if (spec.is_elongated()) numbers.insert(numbers.begin() + axial_column, axial);
   for (const auto* matrix : {&branch.value, &branch.slope})
     for (int f = 0; f < feature_count; ++f) numbers.push_back((*matrix)(i, f));
@@ -77,12 +77,12 @@ bool are_of_a_cell(const Eigen::VectorXd& features) {
 }
 
 std::string_view why_no_state(const CombinedBranch& branch, int i, const Eigen::VectorXd& features) {
-  const auto& [radius, share, ratio, axial] = branch.place;
+  const auto& [radius, fraction, ratio, axial] = branch.place;
   const auto at = std::size_t(i);
   const double S = branch.stiffness_kPa[at];
   if (!(radius > 0 && S > 0 && features(int(ShapeFeature::deformation)) > 0))
     return "radius, stiffness and deformation are not positive";
-  if (!(share >= 0 && share <= 1 && ratio >= 0 && std::isfinite(axial) && branch.error[at] >= 0 &&
+  if (!(fraction >= 0 && fraction <= 1 && ratio >= 0 && std::isfinite(axial) && branch.error[at] >= 0 &&
         are_of_a_cell(features)))
     return "the numbers are not those of a cell";
   if (i > 0 && S >= branch.stiffness_kPa[at - 1]) return "the stiffness does not fall along the branch";
@@ -97,6 +97,13 @@ bool has_its_moduli(const std::vector<double>& row) {
          is_same(row[6], row[2] * cortex, cortex);
 }
 
+/// Of this version, or of the one before, which had another word for a fraction.
+bool is_header(std::string_view line, std::string_view columns) {
+  constexpr std::string_view word = "cortex_fraction", former_word = "cortex_share";
+  const auto place = columns.find(word);
+  return line == columns || line == std::string(columns).replace(place, word.size(), former_word);
+}
+
 // Goes over the lines of a file and keeps the place of errors.
 class CombinedReader {
  public:
@@ -105,7 +112,7 @@ class CombinedReader {
   CombinedTable read(const TableSpec& spec) {
     CombinedTable table{spec, {}};
     const auto names = column_names(spec);
-    if (next() != fmt::format("{}", joined(names, ",")))
+    if (!is_header(next(), joined(names, ",")))
       refuse("the columns are not those of a combined table of this version; let `rheocyte table` write it again");
     while (!text_.empty()) {
       auto row = numbers_of(next(), names.size());
@@ -153,7 +160,7 @@ class CombinedReader {
   /// Without the axial ratio, which stands apart.
   void take_row(const std::vector<double>& row, double axial, std::vector<CombinedBranch>& branches) {
     const auto is_of = [&](const SweepPoint& place) {
-      return place.radius_um == row[0] && place.cortex_share == row[1] && place.tension_ratio == row[2] &&
+      return place.radius_um == row[0] && place.cortex_fraction == row[1] && place.tension_ratio == row[2] &&
              place.axial_ratio == axial;
     };
     if (branches.empty() || !is_of(branches.back().place)) {
@@ -166,7 +173,7 @@ class CombinedReader {
     rows_.back().insert(rows_.back().end(), row.begin() + leading_columns, row.end());
     if (const auto reason = why_no_state(branch, branch.samples() - 1, features_of(row)); !reason.empty())
       refuse(std::string(reason));
-    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, share and tension");
+    if (!has_its_moduli(row)) refuse("the moduli are not those of this stiffness, radius, fraction and tension");
   }
 
   static Eigen::VectorXd features_of(const std::vector<double>& row) {
@@ -212,11 +219,11 @@ std::string combined_table_csv(const CombinedTable& table) {
 
 std::string combined_ends_csv(const TableSpec& spec, std::span<const SampledBranch> branches) {
   const bool elongated = spec.is_elongated();
-  std::string text = fmt::format("radius_um,cortex_share,tension_ratio,{}samples,stiffness_kPa,deformation,status\n",
+  std::string text = fmt::format("radius_um,cortex_fraction,tension_ratio,{}samples,stiffness_kPa,deformation,status\n",
                                  elongated ? "axial_ratio," : "");
   for (const auto& branch : branches) {
     const int last = branch.samples() - 1;
-    text += fmt::format("{},{},{},", branch.radius_um, branch.cortex_share, branch.tension_ratio);
+    text += fmt::format("{},{},{},", branch.radius_um, branch.cortex_fraction, branch.tension_ratio);
     if (elongated) text += fmt::format("{},", branch.axial_ratio);
     text += fmt::format("{},", last + 1);
     text += last < 0 ? "," : fmt::format("{},{}", branch.stiffness.back(), branch.at(last, Measure::deformation));
@@ -249,7 +256,7 @@ CombinedTable read_combined_table(const std::filesystem::path& folder) {
     refuse("there is no table of `rheocyte table` (no spec.toml in this folder).");
   const TableSpec spec = read_table_spec(folder / "spec.toml");
   if (!spec.is_combined())
-    refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_share.");
+    refuse("its cells differ in one modulus only; several moduli need a table with table.cortex_fraction.");
   const auto path = folder / to_path(combined_table_name(spec));
   if (!std::filesystem::exists(path, error))
     refuse(fmt::format("there is no {}; let `rheocyte table` finish it.", combined_table_name(spec)));

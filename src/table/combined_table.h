@@ -1,5 +1,5 @@
-// A table of cells with bulk and cortex: states on branches of one radius, share of the cortex and tension each, with
-// the features by which their moduli are determined separately.
+// A table of cells with bulk and cortex: states on branches of one radius, fraction of the cortex and tension each,
+// with the features by which their moduli are determined separately.
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>

@@ -74,8 +74,8 @@ CurvedGrid::Field CurvedGrid::field(std::span<const double> values) const {
 CurvedGrid::Answer CurvedGrid::answer(const Field& field, const Place& place) const {
   const Node *const a = &field[node(place)], *const b = a + rows_;
   const double in_row = place.height - place.row;
-  const HermiteWeights up = hermite(in_row), up_change = hermite_slope(in_row), weight = hermite(place.share),
-                       change = hermite_slope(place.share);
+  const HermiteWeights up = hermite(in_row), up_change = hermite_slope(in_row), weight = hermite(place.fraction),
+                       change = hermite_slope(place.fraction);
   const Packet in_a = along(up, a), in_b = along(up, b);
   const double by_row = across(weight, along(up_change, a), along(up_change, b));
   // At constant height the place among the rows changes with their ends.

@@ -23,7 +23,7 @@ class CurvedGrid {
   /// Between two nodes each way.
   struct Place {
     int column = 0;               ///< the one before it
-    double share = 0;             ///< of the way to the next one
+    double fraction = 0;          ///< of the way to the next one
     double lower = 0, upper = 0;  ///< ends of the rows there
     int row = 0;                  ///< the one below it
     double height = 0;            ///< in rows
@@ -42,10 +42,12 @@ class CurvedGrid {
   Field field(std::span<const double> values) const;
 
   /// Between a column and the next one; the height is not set yet.
-  Place between_columns(int column, double share) const {
-    const HermiteWeights weight = hermite(share);
-    return {
-        .column = column, .share = share, .lower = edge(lower_, column, weight), .upper = edge(upper_, column, weight)};
+  Place between_columns(int column, double fraction) const {
+    const HermiteWeights weight = hermite(fraction);
+    return {.column = column,
+            .fraction = fraction,
+            .lower = edge(lower_, column, weight),
+            .upper = edge(upper_, column, weight)};
   }
   /// `height` from lower to upper.
   void set_height(Place& place, double height) const {
@@ -58,7 +60,7 @@ class CurvedGrid {
   double value(const Field& field, const Place& place) const {
     const Node *const a = &field[node(place)], *const b = a + rows_;
     const HermiteWeights up = hermite(place.height - place.row);
-    return across(hermite(place.share), along(up, a), along(up, b));
+    return across(hermite(place.fraction), along(up, a), along(up, b));
   }
   Answer answer(const Field& field, const Place& place) const;
 

@@ -44,7 +44,7 @@ class BranchEnds {
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < radii; ++i)
       for (std::size_t j = 0; j < axials; ++j, ++row) {
-        terms.row(row) = terms_of(scale_.share_of(content.radii_um[i]), content.axial_ratios[j]);
+        terms.row(row) = terms_of(scale_.fraction_of(content.radii_um[i]), content.axial_ratios[j]);
         last(row) = -std::log(content.modulus_kPa[content.branch(i, j) + std::size_t(content.states) - 1]);
       }
     weights_ = least_squares(terms, last);
@@ -104,7 +104,7 @@ class ElongatedBranches {
   static std::vector<double> coordinates(const ElongatedContent& content) {
     const RadiusScale scale(content);
     std::vector<double> along;
-    for (const double radius : content.radii_um) along.push_back(scale.share_of(radius));
+    for (const double radius : content.radii_um) along.push_back(scale.fraction_of(radius));
     return along;
   }
 
@@ -156,7 +156,7 @@ double greatest_miss(const ElongatedContent& content) {
 ElongatedContent elongated_content(const TableSpec& spec, std::span<const SampledBranch> all,
                                    std::string_view version) {
   /// Polynomials that have a node miss less between the nodes than those that leave it out there.
-  constexpr double share_of_miss = 0.1;
+  constexpr double fraction_of_miss = 0.1;
   ElongatedContent content;
   content.origin = origin_of(spec, version);
   content.radii_um = computed_radii_um(spec);
@@ -181,7 +181,7 @@ ElongatedContent elongated_content(const TableSpec& spec, std::span<const Sample
                      : branch->at(k, measures[std::size_t(m)]));
       }
     }
-  content.error = share_of_miss * greatest_miss(content);
+  content.error = fraction_of_miss * greatest_miss(content);
   return content;
 }
 
@@ -190,16 +190,16 @@ RadiusScale::RadiusScale(const ElongatedContent& content)
       first(radius_coordinate(content.radii_um.front() / half_width_um)),
       last(radius_coordinate(content.radii_um.back() / half_width_um)) {}
 
-double RadiusScale::share_of(double radius_um) const {
+double RadiusScale::fraction_of(double radius_um) const {
   return (radius_coordinate(radius_um / half_width_um) - first) / (last - first);
 }
 
-double RadiusScale::radius_um(double share) const {
-  return half_width_um * radius_ratio_at(first + share * (last - first));
+double RadiusScale::radius_um(double fraction) const {
+  return half_width_um * radius_ratio_at(first + fraction * (last - first));
 }
 
-double RadiusScale::log_radius_slope(double share) const {
-  const double ratio = radius_ratio_at(first + share * (last - first));
+double RadiusScale::log_radius_slope(double fraction) const {
+  const double ratio = radius_ratio_at(first + fraction * (last - first));
   return (last - first) * (radius_ratio_at(INFINITY) - ratio) / ratio;
 }
 

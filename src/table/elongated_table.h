@@ -48,8 +48,8 @@ ElongatedContent elongated_from_bytes(std::string_view bytes, const std::string&
 /// Of the file beside the other files of a table: elongated_<identifier>.cbor.
 std::string elongated_file_name(const std::string& identifier);
 
-/// Coordinates of a cell: the radius in shares of the way from the least to the greatest one (radius_coordinate), the
-/// axial ratio, and the height: its compliance 1 / E as a share of that at the end of its branch.
+/// Coordinates of a cell: the radius in fractions of the way from the least to the greatest one (radius_coordinate),
+/// the axial ratio, and the height: its compliance 1 / E as a fraction of that at the end of its branch.
 enum class ElongatedCoordinate { radius, axial_ratio, height };
 using ElongatedCell = Eigen::Vector3d;
 
@@ -66,12 +66,12 @@ struct ElongatedState {
   Eigen::Vector3d log_area_slope() const;
 };
 
-/// The radius in shares of the way from the least to the greatest one of a table, by radius_coordinate.
+/// The radius in fractions of the way from the least to the greatest one of a table, by radius_coordinate.
 struct RadiusScale {
   explicit RadiusScale(const ElongatedContent& content);
-  double share_of(double radius_um) const;
-  double radius_um(double share) const;
-  double log_radius_slope(double share) const;
+  double fraction_of(double radius_um) const;
+  double radius_um(double fraction) const;
+  double log_radius_slope(double fraction) const;
 
   double half_width_um, first, last;
 };
@@ -85,7 +85,7 @@ class ElongatedTable {
   const TableOrigin& origin() const { return content_.origin; }
   Elongation elongation() const { return content_.elongation; }
   double error() const { return content_.error; }
-  /// In shares of a branch: a stiffer cell is a sphere for a camera, or an ellipsoid by the elongation alone.
+  /// In fractions of a branch: a stiffer cell is a sphere for a camera, or an ellipsoid by the elongation alone.
   static constexpr double min_height = 1e-3;
   ElongatedCell least() const { return {0, content_.axial_ratios.front(), 0}; }
   ElongatedCell greatest() const { return {1, content_.axial_ratios.back(), 1}; }
@@ -95,7 +95,7 @@ class ElongatedTable {
   /// The same sphere with the same modulus under no tension; the softest that is stable, if it is not.
   ElongatedCell without_elongation(const ElongatedCell&) const;
   /// First coordinate of a sphere's radius.
-  double coordinate_of(double radius_um) const { return scale_.share_of(radius_um); }
+  double coordinate_of(double radius_um) const { return scale_.fraction_of(radius_um); }
   /// Of a first coordinate.
   double radius_um(double coordinate) const { return scale_.radius_um(coordinate); }
 

@@ -153,9 +153,9 @@ class PatchMaker {
   }
 
   std::vector<Crossing> crossings(const std::vector<double>& lower, const std::vector<double>& upper,
-                                  double share) const {
+                                  double fraction) const {
     return crossings(std::span(branches_), [&](const LogBranch::Point& p) {
-      return p.log_deformation - (1 - share) * height(lower, p.log_area) - share * height(upper, p.log_area);
+      return p.log_deformation - (1 - fraction) * height(lower, p.log_area) - fraction * height(upper, p.log_area);
     });
   }
 

@@ -129,10 +129,10 @@ std::vector<std::string> doubts_of_scaling(const TableText& table, const Channel
         "at the wall");
   if (const double effect = inertia_effect(table, to); effect > negligible_effect)
     doubts.push_back(fmt::format("inertia changes the deformation by about {:.1g} %", 100 * effect));
-  // A share of the modulus times a power of the radius stays what it is.
-  const bool is_share = number_at(table.metadata, "/bending_beyond_ratio") > 0;
+  // A fraction of the modulus times a power of the radius stays what it is.
+  const bool is_fraction = number_at(table.metadata, "/bending_beyond_ratio") > 0;
   const bool bending = number_at(table.metadata, "/case/cell/cortex/bending_kBT") > 0 ||
-                       (number_at(table.metadata, "/regularised_rows") > 0 && !is_share);
+                       (number_at(table.metadata, "/regularised_rows") > 0 && !is_fraction);
   if (bending && !same_force)
     doubts.push_back(
         fmt::format("its bending stiffness becomes that of cells {:.3g} times as stiff against bending", load));

@@ -12,7 +12,7 @@ namespace rheocyte {
 /// For which a table holds.
 ChannelFlow channel_flow_of(const TableText&);
 
-/// Why the scaling is not exact, one phrase each; empty: it is. The share of inertia counts from 0.1 % of the
+/// Why the scaling is not exact, one phrase each; empty: it is. The fraction of inertia counts from 0.1 % of the
 /// deformation on, by an increase of 1.3 % for each unit of the Reynolds number (docs/tables.md).
 std::vector<std::string> doubts_of_scaling(const TableText& table, const ChannelFlow& to);
 

@@ -22,8 +22,8 @@ CurvedGrid::Field ShapeGrid::field(std::span<const double> values, int order) co
   std::vector<double> scaled(values.begin(), values.end());
   for (std::size_t c = 0; c < columns; ++c)
     for (std::size_t row = 0; row < rows; ++row) {
-      const double share = double(row) / double(rows - 1);
-      const double log_deformation = (1 - share) * nodes_.lower[c] + share * nodes_.upper[c];
+      const double fraction = double(row) / double(rows - 1);
+      const double log_deformation = (1 - fraction) * nodes_.lower[c] + fraction * nodes_.upper[c];
       scaled[c * rows + row] *= std::exp(-order * log_deformation / 2);
     }
   return grid_.field(scaled);

@@ -66,8 +66,8 @@ std::vector<double> weights_at(std::span<const RadiusState>& states, double log_
 double edge_at(const GridPatch& patch, const std::vector<double>& edge, double column) {
   const double place = std::clamp(column - patch.first_column, 0.0, double(patch.columns - 1));
   const auto below = std::min(std::size_t(place), std::size_t(patch.columns - 2));
-  const double share = place - double(below);
-  return (1 - share) * edge[below] + share * edge[below + 1];
+  const double fraction = place - double(below);
+  return (1 - fraction) * edge[below] + fraction * edge[below + 1];
 }
 
 /// ln(deformation) up to which as many branches go as a polynomial needs at least.
@@ -99,8 +99,8 @@ std::optional<ShapeNodes> shapes_from_branches(const GridContent& grid, std::spa
     nodes.upper.push_back(std::min(edge_at(bare, bare.upper, column), end));
     if (!(nodes.upper.back() > nodes.lower.back())) return {};
     for (int row = 0; row < shape_rows; ++row) {
-      const double share = double(row) / (shape_rows - 1);
-      const double deformation = std::exp((1 - share) * nodes.lower.back() + share * nodes.upper.back());
+      const double fraction = double(row) / (shape_rows - 1);
+      const double deformation = std::exp((1 - fraction) * nodes.lower.back() + fraction * nodes.upper.back());
       auto all = states_at(radii_near(radii, log_area), deformation);
       if (all.size() < fewest_states) all = states_at(radii, deformation);
       if (all.size() < 2) return {};

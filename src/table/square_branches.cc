@@ -25,7 +25,7 @@ constexpr int dense_samples = 48;
 /// How far polynomials may go on beyond the last state of a branch, in sqrt(d).
 constexpr double max_continuation = 0.04;
 /// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
-constexpr double share_of_miss = 0.1;
+constexpr double fraction_of_miss = 0.1;
 constexpr double max_exponent_difference = 0.01;
 
 double sqrt_deformation(const SampledBranch& branch, int sample) {
@@ -198,8 +198,8 @@ class Surface {
     std::size_t right = 1;
     while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius.um) ++right;
     const Curve &a = curves_[right - 1], &b = curves_[right];
-    const double share = (radius.um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
-    return std::min(a.last() + share * (b.last() - a.last()), reach_ * radius.length);
+    const double fraction = (radius.um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
+    return std::min(a.last() + fraction * (b.last() - a.last()), reach_ * radius.length);
   }
 
   DenseState state(const Radius& radius, double s) const {
@@ -234,8 +234,9 @@ class Surface {
   }
 
  private:
-  /// Branches are compared at equal shares of their length, which must not change abruptly from one radius to the next:
-  /// a last state lies where a cell happens to be accurate, so lengths are those of a parabola through all of them.
+  /// Branches are compared at equal fractions of their length, which must not change abruptly from one radius to the
+  /// next: a last state lies where a cell happens to be accurate, so lengths are those of a parabola through all of
+  /// them.
   void set_ends() {
     const auto count = std::ssize(curves_);
     Eigen::MatrixX3d powers(count, 3);
@@ -315,15 +316,15 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
   const Radius radius = surface.at(radius_um);
   const double last = surface.last(radius), first = 0.98 * std::sqrt(spec.min_deformation) / last;
   for (int k = 0; k < dense_samples; ++k) {
-    const double share = std::pow(first, 1 - double(k) / (dense_samples - 1));
-    DenseState state = surface.state(radius, last * share);
+    const double fraction = std::pow(first, 1 - double(k) / (dense_samples - 1));
+    DenseState state = surface.state(radius, last * fraction);
     branch.value.row(k) = state.value.transpose();
     branch.slope.row(k) = state.slope.transpose();
     branch.stiffness.push_back(state.stiffness);
     branch.contour.push_back(std::move(state.contour));
     branch.contour_slope.push_back(std::move(state.contour_slope));
     const double response = std::abs(branch.slope(k, 0) / branch.value(k, 0));  // d ln(d) / d ln(E)
-    branch.error.push_back(curve.error(share * curve.last()) + miss * response);
+    branch.error.push_back(curve.error(fraction * curve.last()) + miss * response);
   }
   return branch;
 }
@@ -365,7 +366,7 @@ std::vector<SampledBranch> square_branches(const TableSpec& spec, std::span<cons
   std::vector<SampledBranch> branches;
   for (const double radius : sweep_radii_um(spec))
     if (surface.reaches(radius))
-      branches.push_back(dense_branch(spec, surface, radius, share_of_miss * std::max(miss.radius, miss.state)));
+      branches.push_back(dense_branch(spec, surface, radius, fraction_of_miss * std::max(miss.radius, miss.state)));
   return branches;
 }
 

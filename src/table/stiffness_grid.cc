@@ -49,19 +49,19 @@ StiffnessGrid::Place StiffnessGrid::place_of(double log_area, double log_deforma
   if (place < 0) return none(OutOfTable::too_small);
   if (place > content_.columns - 1) return none(OutOfTable::too_large);
   const int column = std::min(static_cast<int>(place), content_.columns - 2);
-  const double share = place - column;
+  const double fraction = place - column;
   OutOfTable reason = OutOfTable::too_stiff;
   for (const Patch& patch : patches_) {
     const int in_patch = column - patch.first_column;
     if (in_patch < 0 || in_patch > patch.grid.columns() - 2) continue;
-    here.in_patch = patch.grid.between_columns(in_patch, share);
+    here.in_patch = patch.grid.between_columns(in_patch, fraction);
     if (log_deformation < here.in_patch.lower) return none(reason);
     if (log_deformation <= here.in_patch.upper) {
       here.patch = &patch;
       patch.grid.set_height(here.in_patch, log_deformation);
       return here;
     }
-    reason = patch.beyond[static_cast<std::size_t>(in_patch + (share > 0.5 ? 1 : 0))];
+    reason = patch.beyond[static_cast<std::size_t>(in_patch + (fraction > 0.5 ? 1 : 0))];
   }
   return none(reason);
 }

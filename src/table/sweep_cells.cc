@@ -15,14 +15,15 @@ namespace rheocyte {
 namespace {
 
 // Deformed cells of a table have up to a tenth more area than the sphere.
-constexpr double min_share_of_sphere = 0.9;
+constexpr double min_fraction_of_sphere = 0.9;
 
 // The singularity of radius_coordinate, in h.
 constexpr double beyond_wall = 1.05;
 
-// A share of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
+// A fraction of 0 or 1 leaves nothing of the other one: not even a modulus of zero.
 void set_moduli(Case& c, const SweepPoint& place, double stiffness) {
-  const double bulk = (1 - place.cortex_share) * stiffness, cortex = place.cortex_share * stiffness * place.radius_um;
+  const double bulk = (1 - place.cortex_fraction) * stiffness,
+               cortex = place.cortex_fraction * stiffness * place.radius_um;
   c.cell.bulk.young_modulus_kPa.reset();
   c.cell.cortex.modulus_mN_per_m.reset();
   c.cell.cortex.tension_ratio.reset();
@@ -48,7 +49,7 @@ double bending_kBT(const TableSpec& spec, const SweepPoint& place, double stiffn
 
 std::pair<double, double> first_and_last_radius_um(const TableSpec& spec) {
   const double R = unit_length_um(spec.base);
-  return {std::max(std::sqrt(min_share_of_sphere * spec.min_area_um2 / std::numbers::pi), min_radius_ratio * R),
+  return {std::max(std::sqrt(min_fraction_of_sphere * spec.min_area_um2 / std::numbers::pi), min_radius_ratio * R),
           std::min(std::sqrt(spec.max_area_um2 / std::numbers::pi), max_radius_ratio * R)};
 }
 
@@ -81,14 +82,14 @@ double radius_ratio_at(double radius_coordinate) { return beyond_wall - std::exp
 std::vector<SweepPoint> sweep_places(const TableSpec& spec) {
   std::vector<SweepPoint> places;
   const auto radii = spec.is_square() ? computed_radii_um(spec) : sweep_radii_um(spec);
-  const auto add = [&](double share, double ratio, double axial) {
-    for (const double radius : radii) places.push_back({radius, share, ratio, axial});
+  const auto add = [&](double fraction, double ratio, double axial) {
+    for (const double radius : radii) places.push_back({radius, fraction, ratio, axial});
   };
   for (const double axial : spec.is_elongated() ? spec.axial_ratios : std::vector{0.0}) {
     if (!spec.is_combined()) add(0, 0, axial);
     for (const double ratio : spec.tension_ratios)
-      for (const double share : spec.cortex_shares)
-        if (share > 0 || ratio == spec.tension_ratios.front()) add(share, ratio, axial);
+      for (const double fraction : spec.cortex_fractions)
+        if (fraction > 0 || ratio == spec.tension_ratios.front()) add(fraction, ratio, axial);
   }
   return places;
 }

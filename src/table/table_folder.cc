@@ -28,7 +28,7 @@ std::string mark_of_earlier_builds(const std::string& spec_hash) {
 
 bool is_cell_of(const SweepPoint& place, const SampledBranch& branch) {
   return std::abs(branch.radius_um - place.radius_um) < 1e-9 * place.radius_um &&
-         branch.cortex_share == place.cortex_share && branch.tension_ratio == place.tension_ratio &&
+         branch.cortex_fraction == place.cortex_fraction && branch.tension_ratio == place.tension_ratio &&
          branch.axial_ratio == place.axial_ratio;
 }
 
@@ -55,7 +55,7 @@ WantedWork TableFolder::wanted() const {
 std::string TableFolder::layout() const {
   std::string text = branch_record_format() + "\n";
   for (int i = 0; i < branches(); ++i) {
-    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false), place(i).radius_um, place(i).cortex_share,
+    text += fmt::format("{} {:.6g} {:.6g} {:.6g}{}", record(i, false), place(i).radius_um, place(i).cortex_fraction,
                         place(i).tension_ratio, spec_.wants_regularised() ? " held" : "");
     text += spec_.is_elongated() ? fmt::format(" axial {:.6g}\n", place(i).axial_ratio) : "\n";
   }

@@ -14,7 +14,7 @@ Key<TableSpec> key(KeyDescription description) {
 using Spec = TableSpec;
 /// What can be solved for in ducts (src/case/read_case.cc), for solids and shells.
 constexpr double max_bending_ratio = 1e-3;
-constexpr Condition combined{"table.cortex_share", ""}, square{"channel.section", "square"},
+constexpr Condition combined{"table.cortex_fraction", ""}, square{"channel.section", "square"},
     elongated{"table.axial_ratio", ""};
 
 const std::array table = {
@@ -57,14 +57,15 @@ const std::array table = {
                                      "margin of the bare surface, 1 at rest and 0 where it loses stability, from which "
                                      "on bending_beyond_ratio holds it",
                                      Number{{0, 0.9}}, 0.0, square}),
-    key<&Spec::cortex_shares>({"table.cortex_share", "",
-                               "shares of the cortex in the stiffness of combined cells, one sheet for each",
-                               List{{0, 1}, true}, absent}),
+    key<&Spec::cortex_fractions>(renamed(
+        {"table.cortex_fraction", "", "fractions of the cortex in the stiffness of combined cells, one sheet for each",
+         List{{0, 1}, true}, absent},
+        "table.cortex_share")),
     key<&Spec::tension_ratios>({"table.tension_ratio", "",
-                                "tensions of combined cells as shares of the modulus of the cortex",
+                                "tensions of combined cells as fractions of the modulus of the cortex",
                                 List{{0, 1e3}, true}, absent, combined}),
     key<&Spec::axial_ratios>({"table.axial_ratio", "",
-                              "tensions of the liquid along the flow, flow.axial_tension_Pa, as shares of the swept "
+                              "tensions of the liquid along the flow, flow.axial_tension_Pa, as fractions of the swept "
                               "stiffness: cells that are elongated; 0 must be among them",
                               List{{-0.5, 2}, true}, absent}),
     key<&Spec::elongation>({"table.elongated_by", "",

@@ -10,14 +10,14 @@ namespace rheocyte {
 namespace {
 
 constexpr int level_count = 11;
-constexpr double share_of_stiffest_line = 0.1;  // of the greatest deformation, for the largest cell
-constexpr double share_of_softest_line = 0.1;   // of the way from the least to the greatest radius
+constexpr double fraction_of_stiffest_line = 0.1;  // of the greatest deformation, for the largest cell
+constexpr double fraction_of_softest_line = 0.1;   // of the way from the least to the greatest radius
 
 double rounded(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
 
-// Of the rows at the greatest radius, the first that has the wanted share of the greatest deformation.
+// Of the rows at the greatest radius, the first that has the wanted fraction of the greatest deformation.
 double stiffest_level(const LookupTable& table) {
-  const double wanted = share_of_stiffest_line * table.spec.max_deformation;
+  const double wanted = fraction_of_stiffest_line * table.spec.max_deformation;
   const TableRow* best = nullptr;
   for (const auto& row : table.rows) {
     const bool is_larger = best && row.radius_um > best->radius_um;
@@ -29,7 +29,7 @@ double stiffest_level(const LookupTable& table) {
 // Not of the very smallest cells: the line would be a point in the corner of the plane.
 double softest_level(const LookupTable& table) {
   const double first = table.rows.front().radius_um, last = table.rows.back().radius_um;
-  const double radius = first + share_of_softest_line * (last - first);
+  const double radius = first + fraction_of_softest_line * (last - first);
   const auto beyond = std::ranges::find_if(table.rows, [&](const TableRow& row) { return row.radius_um >= radius; });
   double softest = beyond->state.stiffness;
   for (auto row = beyond; row != table.rows.end() && row->radius_um == beyond->radius_um; ++row)

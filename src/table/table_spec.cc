@@ -47,20 +47,20 @@ std::string quoted_list(std::span<const std::string_view> words) {
 bool has_bulk(const KeyReading& keys) { return keys.chosen(bulk_law_key) != "none"; }
 bool has_cortex(const KeyReading& keys) { return keys.chosen(cortex_law_key) != "none"; }
 
-// Bulk and cortex, all moduli along the sweep, tension as a share of the cortex.
+// Bulk and cortex, all moduli along the sweep, tension as a fraction of the cortex.
 void check_combined(TableSpec& spec, const KeyReading& keys) {
-  constexpr std::string_view shares = "table.cortex_share";
+  constexpr std::string_view fractions = "table.cortex_fraction";
   if (keys.has("table.stiffness") && !spec.is_combined())
     keys.refuse("table.stiffness", fmt::format("{} does not go with {}; write \"{}\" or leave it out.",
-                                               keys.stated("table.stiffness"), shares, combined_stiffness));
+                                               keys.stated("table.stiffness"), fractions, combined_stiffness));
   spec.stiffness_key = combined_stiffness;
   if (!has_bulk(keys) || !has_cortex(keys))
-    keys.refuse(shares, fmt::format("{} needs a law of the bulk and one of the cortex.", shares));
-  if (spec.cortex_shares.size() < 2)
-    keys.refuse(shares, fmt::format("{} needs at least two shares, such as [0, 0.5, 1].", shares));
+    keys.refuse(fractions, fmt::format("{} needs a law of the bulk and one of the cortex.", fractions));
+  if (spec.cortex_fractions.size() < 2)
+    keys.refuse(fractions, fmt::format("{} needs at least two fractions, such as [0, 0.5, 1].", fractions));
   if (keys.has(tension_key))
-    keys.refuse(tension_key,
-                fmt::format("{} does not go with {}; give {} instead.", keys.stated(tension_key), shares, ratio_key));
+    keys.refuse(tension_key, fmt::format("{} does not go with {}; give {} instead.", keys.stated(tension_key),
+                                         fractions, ratio_key));
   const auto exclude = [&](std::string_view one, std::string_view other) {
     if (keys.has(one) && keys.has(other))
       keys.refuse(one, fmt::format("{} and {} exclude each other; give one of them.", keys.stated(one), other));
@@ -80,7 +80,7 @@ void check_combined(TableSpec& spec, const KeyReading& keys) {
 void choose_stiffness(TableSpec& spec, const KeyReading& keys) {
   constexpr std::string_view key = "table.stiffness";
   const bool bulk = has_bulk(keys), cortex = has_cortex(keys);
-  if (keys.has("table.cortex_share")) return check_combined(spec, keys);
+  if (keys.has("table.cortex_fraction")) return check_combined(spec, keys);
   if (!keys.has(key)) {
     spec.stiffness_key = stiffness_keys[bulk ? 0 : 1];
     return;
@@ -92,7 +92,7 @@ void choose_stiffness(TableSpec& spec, const KeyReading& keys) {
                                  hint.empty() ? "." : hint));
   }
   if (spec.is_combined())
-    keys.refuse(key, "table.stiffness = \"combined\" needs table.cortex_share, such as [0, 0.5, 1].");
+    keys.refuse(key, "table.stiffness = \"combined\" needs table.cortex_fraction, such as [0, 0.5, 1].");
   if (found == stiffness_keys.begin() ? !bulk : !cortex)
     keys.refuse(key,
                 fmt::format("{} cannot be swept, because {} is \"none\"; choose a law, or sweep the other modulus.",
@@ -189,7 +189,7 @@ void check_elongation(const TableSpec& spec, const KeyReading& keys) {
   if (!spec.is_elongated()) return;
   if (!spec.is_combined() && (!spec.is_square() || spec.sweeps_cortex()))
     keys.refuse(axial_key, fmt::format("{} is for solids in the square channel (channel.section = \"square\"), and for "
-                                       "cells with bulk and cortex (table.cortex_share).",
+                                       "cells with bulk and cortex (table.cortex_fraction).",
                                        axial_key));
   if (spec.axial_ratios.size() < 4 || !std::ranges::binary_search(spec.axial_ratios, 0.0))
     keys.refuse(

@@ -10,18 +10,18 @@
 
 namespace rheocyte {
 
-/// What is swept when the cell has a bulk and a cortex: S = E + E2D / r0 in kPa, E = (1 - share) S, E2D = share S r0
-/// (docs/tables.md, sec. "combined cells").
+/// What is swept when the cell has a bulk and a cortex: S = E + E2D / r0 in kPa, E = (1 - fraction) S, E2D = fraction S
+/// r0 (docs/tables.md, sec. "combined cells").
 inline constexpr std::string_view combined_stiffness = "combined";
 
 /// By what the cells of a table are longer than the flow makes them.
 enum class Elongation { by_tension, by_rest_shape };
 
-/// The cells of one branch; share and tension of the cortex have a meaning for combined cells only.
+/// The cells of one branch; fraction and tension of the cortex have a meaning for combined cells only.
 struct SweepPoint {
-  double radius_um = 0;      ///< of the sphere at rest
-  double cortex_share = 0;   ///< (E2D / r0) / S
-  double tension_ratio = 0;  ///< gamma / E2D
+  double radius_um = 0;        ///< of the sphere at rest
+  double cortex_fraction = 0;  ///< (E2D / r0) / S
+  double tension_ratio = 0;    ///< gamma / E2D
   /// flow.axial_tension_Pa over the swept stiffness, E or S; of cells that are long at rest that which would draw a
   /// sphere out as much (aspect_by_tension).
   double axial_ratio = 0;
@@ -41,9 +41,9 @@ struct TableSpec {
   /// over S r0^3; 0: none.
   double bending_beyond_kBT = 0, bending_beyond_ratio = 0;
   double bending_from_margin = 0;  ///< in a square channel: bare branches end where the surface is that stable
-  std::vector<double> cortex_shares, tension_ratios;  ///< of combined cells, ascending; else empty
-  std::vector<double> axial_ratios;                   ///< of elongated cells, ascending; else empty
-  Elongation elongation = Elongation::by_tension;     ///< of them
+  std::vector<double> cortex_fractions, tension_ratios;  ///< of combined cells, ascending; else empty
+  std::vector<double> axial_ratios;                      ///< of elongated cells, ascending; else empty
+  Elongation elongation = Elongation::by_tension;        ///< of them
   double bending_ratio = 0;        ///< c_b / (S r0^3), S = E or E2D / r0; 0: the base's bending stiffness for all
   double max_deformation_raw = 1;  ///< of the contour itself, dent included: where branches of combined cells end
   /// In a square channel: branches and states on each that are computed, between which the others lie, and the tube's
@@ -77,8 +77,9 @@ double radius_coordinate(double radius_ratio);
 /// Its inverse.
 double radius_ratio_at(double radius_coordinate);
 
-/// All branches of the sweep: radius by radius within each share, share by share within each tension of the cortex, and
-/// that within each axial tension. Cells without a cortex have no tension of it: they stand once, with the first one.
+/// All branches of the sweep: radius by radius within each fraction, fraction by fraction within each tension of the
+/// cortex, and that within each axial tension. Cells without a cortex have no tension of it: they stand once, with the
+/// first one.
 std::vector<SweepPoint> sweep_places(const TableSpec&);
 
 /// The case of one cell of the table.

@@ -64,7 +64,7 @@ Json CombinedCells::case_of(const ModuliEstimate& estimate, double viscosity_mPa
   flow.viscosity_mPas = viscosity_mPas;
   flow.exponent = table_.simulated.exponent;
   const double length = scale_factors(table_.simulated, flow).length;
-  const SweepPoint place{length * std::exp(estimate.cell(x_radius)), estimate.cell(x_share), estimate.cell(x_ratio)};
+  const SweepPoint place{length * std::exp(estimate.cell(x_radius)), estimate.cell(x_fraction), estimate.cell(x_ratio)};
   const Json cell = to_json(case_at(table_.content.spec, place, estimate.stiffness_kPa));
   Json in_flow = flow_json(flow);
   if (table_.between.is_elongated()) in_flow["axial_tension_Pa"] = estimate.axial_tension_Pa;

@@ -168,11 +168,11 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
   const ExtractOutput output{path_in(request, "companion"), path_in(request, "events"), request.value("keep", false)};
   ExtractFiles files(output, !output.events.empty());
   // Several moduli take by far longer than one.
-  const double share = path_in(request, "several").empty() ? 1 : 0.1;
+  const double fraction = path_in(request, "several").empty() ? 1 : 0.1;
   const auto work = [&](const TellProgress& tell) {
     const Json basins = basins_of(file);
-    const auto tell_first = [&](double done) { tell(share * done); };
-    const auto tell_second = [&](double done) { tell(share + (1 - share) * done); };
+    const auto tell_first = [&](double done) { tell(fraction * done); };
+    const auto tell_second = [&](double done) { tell(fraction + (1 - fraction) * done); };
     Json report = moduli_report(file, extract_recording(file, files, options, tables, tell_first));
     report["features"] = Json::array();
     for (const auto& column : computed_columns(Recording(files.companion()))) report["features"].push_back(column.name);

@@ -85,7 +85,7 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
       const auto events =
           read_population_events(conditions[c].recordings[j], options.measuring, stiffness_measure_of(options),
-                                 [&](double share) { tell((done + 0.5 * share) / all); });
+                                 [&](double fraction) { tell((done + 0.5 * fraction) / all); });
       analysis.add(c, j, events, [] {});
       tell((done + 1) / all);
     }

@@ -70,7 +70,7 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
   ASSERT_EQ(gated.exit_code, 0) << gated.err;
   EXPECT_NE(gated.err.find("the gates on pos_x <= 1000000000 are not part of the model"), std::string::npos);
   const auto kept = record()["recordings"][0]["population"];
-  EXPECT_NEAR(kept["kept_share"], 0.5, 0.15);
+  EXPECT_NEAR(kept["kept_fraction"], 0.5, 0.15);
   EXPECT_NEAR(kept["median_radius_um"], 6.5, 0.15) << "of all cells; the median of those that are kept is 6.8";
   expect_in(kept["median_axial_tension_Pa"], 250);
   expect_in(kept["median_stiffness_kPa"], 3.4);

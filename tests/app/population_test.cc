@@ -199,7 +199,7 @@ TEST_F(PopulationCommand, GatesOnTheAreaAreCorrectedForAndOthersAreNamed) {
       << ended.err;
   const auto recording = record()["recordings"][0];
   const auto& parameters = recording["population"]["parameters"];
-  EXPECT_LT(recording["population"]["kept_share"], 0.8);
+  EXPECT_LT(recording["population"]["kept_fraction"], 0.8);
   EXPECT_NEAR(parameters[1]["value"], log_median(4), 4 * double(parameters[1]["standard_error"]) + 0.01);
   EXPECT_NEAR(parameters[0]["value"], std::log(6.3), 4 * double(parameters[0]["standard_error"]) + 0.005);
 }

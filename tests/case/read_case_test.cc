@@ -66,9 +66,9 @@ TEST(ReadCase, ASettingOfOneAlternativeReplacesTheOther) {
 }
 
 TEST(ReadCase, AKeyOfTheFileWithoutEffectIsRefusedWhoeverSetTheRest) {
-  EXPECT_NE(refusal(shortest + "mooney_share = 0.3\n").find("has no effect"), std::string::npos);
-  EXPECT_EQ(refusal(shortest + "mooney_share = 0.3\n", {"cell.bulk.law=linear"}), "accepted");
-  EXPECT_NE(refusal(shortest, {"cell.bulk.mooney_share=0.3"}).find("has no effect"), std::string::npos);
+  EXPECT_NE(refusal(shortest + "c1_fraction = 0.3\n").find("has no effect"), std::string::npos);
+  EXPECT_EQ(refusal(shortest + "c1_fraction = 0.3\n", {"cell.bulk.law=linear"}), "accepted");
+  EXPECT_NE(refusal(shortest, {"cell.bulk.c1_fraction=0.3"}).find("has no effect"), std::string::npos);
 }
 
 TEST(ReadCase, TheEndsOfARangeBelongToIt) {

@@ -119,12 +119,12 @@ TEST(Scales, TheStressOfAPowerLawIsKTimesShearRateToTheN) {
 
 TEST(Scales, LinearAndNeoHookeanAreTheEndsOfMooneyRivlin) {
   Case c = paper_cell();
-  EXPECT_EQ(neo_hookean_share(problem_of(c).bulk), 1);
+  EXPECT_EQ(neo_hookean_fraction(problem_of(c).bulk), 1);
   c.cell.bulk.law = BulkLaw::linear;
-  EXPECT_EQ(neo_hookean_share(problem_of(c).bulk), 0);
+  EXPECT_EQ(neo_hookean_fraction(problem_of(c).bulk), 0);
   c.cell.bulk.law = BulkLaw::mooney_rivlin;
-  c.cell.bulk.mooney_share = 0.25;
-  EXPECT_EQ(neo_hookean_share(problem_of(c).bulk), 0.25);
+  c.cell.bulk.c1_fraction = 0.25;
+  EXPECT_EQ(neo_hookean_fraction(problem_of(c).bulk), 0.25);
 }
 
 TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {

@@ -64,7 +64,7 @@ TEST(WriteCase, OnlyKeysWithAnEffectAreWritten) {
   const auto json = to_json(cases_of_all_laws()[0]);
   EXPECT_FALSE(json["flow"].contains("exponent"));
   EXPECT_FALSE(json["channel"].contains("radius_um"));
-  EXPECT_FALSE(json["cell"]["bulk"].contains("mooney_share"));
+  EXPECT_FALSE(json["cell"]["bulk"].contains("c1_fraction"));
   EXPECT_EQ(json["flow"]["law"], "newtonian");
   EXPECT_EQ(json["flow"]["density_kg_per_m3"], 1000.0);
 }

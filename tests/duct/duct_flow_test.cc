@@ -41,7 +41,7 @@ TEST(DuctFlow, AnotherSpeedTakesTheGradientOfThatSpeed) {
   const CrossSection section(square, 5);
   const Liquid power_law{.law = LiquidLaw::power_law, .exponent = 0.6, .shear_rate_floor = 1e-3};
   EXPECT_NEAR(section.gradient_at({.viscosity = 3}, 2), 6 * section.flow({}).pressure_gradient, 1e-9);
-  // The floor is at another share of the speed: 1e-5 of the stress.
+  // The floor is at another fraction of the speed: 1e-5 of the stress.
   EXPECT_NEAR(section.gradient_at(power_law, 2) / (std::pow(2, 0.6) * section.flow(power_law).pressure_gradient), 1,
               2e-5);
 }

@@ -61,9 +61,9 @@ TEST(DuctMesh, PartsOfARectangleAreFilledWithoutFolds) {
     for (const Symmetry symmetry : {Symmetry::quarter, Symmetry::half}) {
       const DuctGeometry geometry({Section::rectangle, 0.7, extent});
       const Volumes v = volumes(DuctMesh(geometry, {}, symmetry), 5);
-      const double share = 1.0 / double(copies_of(symmetry).size());
-      EXPECT_NEAR(v.cell / (share * 4 * pi / 3 * 0.343), 1, 1e-5);
-      EXPECT_NEAR(v.all / (share * 2 * geometry.half_length() * geometry.area()), 1, 1e-5);
+      const double fraction = 1.0 / double(copies_of(symmetry).size());
+      EXPECT_NEAR(v.cell / (fraction * 4 * pi / 3 * 0.343), 1, 1e-5);
+      EXPECT_NEAR(v.all / (fraction * 2 * geometry.half_length() * geometry.area()), 1, 1e-5);
       EXPECT_GT(v.min_det, 0);
     }
   }

@@ -82,10 +82,10 @@ TEST(DuctSilhouette, NoPointOfTheBodyLiesBeyondItAndOneOnIt) {
   const DuctSpace space = space_of(Symmetry::eighth);
   const VectorXd state = state_of(space);
   constexpr double degrees = 22.5, angle = degrees * std::numbers::pi / 180;
-  for (const double share : {-0.7, -0.2, 0.4, 0.9}) {
+  for (const double fraction : {-0.7, -0.2, 0.4, 0.9}) {
     // The greatest distance at this height, over a fine grid of the exact body.
     double greatest = 0;
-    const double x = share * radius, ring = std::sqrt(radius * radius - x * x);
+    const double x = fraction * radius, ring = std::sqrt(radius * radius - x * x);
     for (int i = 0; i <= 20000; ++i) {
       const double turn = i * std::numbers::pi / 4 / 20000;
       const DuctPoint at = body({x, ring * std::cos(turn), ring * std::sin(turn)});
@@ -100,8 +100,8 @@ TEST(DuctSilhouette, NoPointOfTheBodyLiesBeyondItAndOneOnIt) {
       there = (seen.point(i, 1) * b - seen.point(i + 1, 1) * a) / (b - a);
     }
     // The body is interpolated by polynomials of degree 5; 200 points per piece are 1e-5 apart from their chords.
-    EXPECT_EQ(nearest, 0) << share;
-    EXPECT_NEAR(there, greatest, 1e-4 * radius) << share;
+    EXPECT_EQ(nearest, 0) << fraction;
+    EXPECT_NEAR(there, greatest, 1e-4 * radius) << fraction;
   }
 }
 

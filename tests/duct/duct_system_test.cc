@@ -22,7 +22,7 @@ struct SmallDuct {
 };
 
 Media media(const Liquid& liquid) {
-  return {.liquid = liquid, .bulk = {.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3}};
+  return {.liquid = liquid, .bulk = {.law = BulkLaw::mooney_rivlin, .c1_fraction = 0.3}};
 }
 
 /// Some flow round a cell that is deformed by a tenth of its radius.

@@ -33,7 +33,7 @@ struct SmallDuct {
 
 Media media() {
   return {.liquid = {},
-          .bulk = {.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3, .viscosity = 2},
+          .bulk = {.law = BulkLaw::mooney_rivlin, .c1_fraction = 0.3, .viscosity = 2},
           .cortex = {CortexLaw::neo_hookean, 2, 0.3, 0}};
 }
 

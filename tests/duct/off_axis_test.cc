@@ -46,8 +46,8 @@ VectorXd solved(DuctSystem& system, const Media& media) {
 TEST(OffAxis, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   // And the factors are the tangent's: each correction leaves as little as single precision allows. Of a bare solid,
   // and of one with a cortex, which bends, too, in surroundings under tension.
-  const Bulk solid{.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3},
-      pulled{.law = BulkLaw::mooney_rivlin, .mooney_share = 0.3, .axial_tension = 0.5};
+  const Bulk solid{.law = BulkLaw::mooney_rivlin, .c1_fraction = 0.3},
+      pulled{.law = BulkLaw::mooney_rivlin, .c1_fraction = 0.3, .axial_tension = 0.5};
   for (const auto& [bulk, cortex] :
        {std::pair{solid, Cortex{}}, std::pair{pulled, Cortex{CortexLaw::neo_hookean, 2, 0.3}},
         std::pair{pulled, Cortex{CortexLaw::neo_hookean, 2, 0.3, 0.02}}}) {

@@ -74,7 +74,7 @@ TEST(EventTable, WritesAllColumnsOfAnEventInALine) {
   const std::string elongated = shape[0].is_elongated() ? "1" : "0";
   EXPECT_EQ(text,
             "event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\tstate\tshape_excess\tshape_excess_error\t"
-            "elongated\todd_share\n# made for a test\n1\t80.5\t0.02\t5\t1.25\tvalid\t" +
+            "elongated\todd_fraction\n# made for a test\n1\t80.5\t0.02\t5\t1.25\tvalid\t" +
                 std::string("0.06\t0.01\t") + elongated +
                 "\t0.1\n2\t90\tnan\t5\tnan\tno_data\tnan\tnan\t0\tnan\n# the end\n");
 }

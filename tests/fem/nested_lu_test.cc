@@ -151,7 +151,8 @@ TEST(NestedLU, GivesUpWhenItIsToStopAndBeginsAnew) {
 }
 
 TEST(NestedLU, CostsNoMoreThanSeparatorsOfAGrid) {
-  // A dense matrix of all unknowns would take 2/3 n^3 operations; separators of a long grid take a small share of it.
+  // A dense matrix of all unknowns would take 2/3 n^3 operations; separators of a long grid take a small fraction of
+  // it.
   const Grid grid(20, 4);
   const double n = grid.unknowns;
   EXPECT_LT(NestedLU<float>(grid.unknowns, grid.elements).flops(), 0.03 * 2 / 3 * n * n * n);

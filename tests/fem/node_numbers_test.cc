@@ -38,7 +38,7 @@ TEST(NodeNumbers, APointOnALineOfTheInnerGridHasOneNumberFromBothSides) {
   }
 }
 
-TEST(NodeNumbers, ACubeOfElementsSharesItsFaces) {
+TEST(NodeNumbers, ACubeOfElementsFractionsItsFaces) {
   // n^3 elements of degree p have (n p + 1)^3 nodes.
   constexpr int n = 3, p = 4, nodes = p + 1;
   const auto numbers = number_nodes<3>(n * n * n, nodes * nodes * nodes, [&](int e, int k) -> Eigen::Vector3d {

@@ -29,8 +29,8 @@ ShapeErrors fine_errors(double deviation = 1e-5) {
 struct Cell {
   SweepPoint place;
   double stiffness;
-  double young() const { return (1 - place.cortex_share) * stiffness; }
-  double cortex() const { return place.cortex_share * stiffness * place.radius_um; }
+  double young() const { return (1 - place.cortex_fraction) * stiffness; }
+  double cortex() const { return place.cortex_fraction * stiffness * place.radius_um; }
   double tension() const { return place.tension_ratio * cortex(); }
 };
 
@@ -81,7 +81,7 @@ TEST_F(BulkCortexFitOf, TheWholeContourGivesTheTensionToo) {
   // Three unknowns and a size from the area and five modes; the errors are those of the table.
   for (int trial = 0; trial < 20; ++trial) {
     Cell cell = random_cell(std::uniform_real_distribution(0.05, 0.25)(engine_));
-    cell.place.cortex_share = std::max(cell.place.cortex_share, 0.4);
+    cell.place.cortex_fraction = std::max(cell.place.cortex_fraction, 0.4);
     const MeasuredShape shape{invented_features(cell.place, cell.stiffness), fine_errors(1e-4)};
     const auto found = estimator(features_of_contour(), true).fit(shape, simulated_);
     EXPECT_EQ(found.status, ModuliStatus::resolved) << sentence(found);
@@ -320,7 +320,7 @@ TEST_F(ElongatedCells, SlopesBetweenCellsOfOneTensionAreThoseOfTheModel) {
 
 TEST_F(ElongatedCells, ErrorsOfTheMedianCellAllowForWhatTheModelLeaves) {
   // An outline that no cell has, by fifty standard errors of a mode: its chi2 goes into the errors. A cell in the
-  // middle of the table is not at its end, and one beyond the greatest share is.
+  // middle of the table is not at its end, and one beyond the greatest fraction is.
   auto [seen, stiffness] = random_cell(1000, 0);
   seen.cells = 100;
   const MedianCell fits = median_cell(moduli_, seen, AxialTension::unknown());

@@ -104,7 +104,7 @@ TEST_F(CombinedPopulationTest, NodesOfAGateHaveTheMomentsOfTheCellsThatPass) {
     for (const ShapeVector& shape : all)
       if (gate.pass(shape(int(ShapeFeature::area_um2)))) kept.push_back(shape(model.features()));
     model.take_gate(gate);
-    EXPECT_NEAR(model.kept_share(q), double(kept.size()) / double(all.size()), 0.006);
+    EXPECT_NEAR(model.kept_fraction(q), double(kept.size()) / double(all.size()), 0.006);
     const Moments nodes = model.at(q);
     const double n = double(kept.size());
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(nodes.mean.size());
@@ -142,8 +142,9 @@ TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
   ASSERT_TRUE(found.fit.is_found);
   const CombinedVector truth = law.parameters();
-  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_share,
-                       CombinedParameter::tension_ratio, CombinedParameter::axial_tension}) {
+  for (const auto p :
+       {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_fraction,
+        CombinedParameter::tension_ratio, CombinedParameter::axial_tension}) {
     const int a = int(p);
     EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
   }
@@ -171,7 +172,7 @@ TEST_F(CombinedPopulationTest, AGateOnTheAreaIsPartOfTheModel) {
     const int a = int(p);
     EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
   }
-  EXPECT_NEAR(found.kept_share, 0.5, 0.1);
+  EXPECT_NEAR(found.kept_fraction, 0.5, 0.1);
   EXPECT_GT(median_of(cells).shape(int(ShapeFeature::area_um2)) - 2 * truth(0), std::log(3.3)) << "the gate cuts";
 }
 

@@ -72,12 +72,12 @@ TEST(RenderedErrors, BetweenTheCellsOfATableAreThoseOfTheFittedLaw) {
   const CombinedInterpolation table(test::whole_combined_table());
   const RenderedErrors rendered(table, pixel_um);
   for (const double radius : {5.0, 6.5, 7.8})
-    for (const double share : {0.2, 0.5, 0.8})
+    for (const double fraction : {0.2, 0.5, 0.8})
       for (const double true_deformation : {0.003, 0.008, 0.015}) {
-        const CellCoordinates cell(std::log(radius), share, std::log(true_deformation), 0.15, 0.0);
+        const CellCoordinates cell(std::log(radius), fraction, std::log(true_deformation), 0.15, 0.0);
         const double area_um2 = std::exp(table.at(cell).value(log_area_row));
         const auto off = difference(rendered.at(cell), area_um2, true_deformation);
-        const auto where = [&] { return testing::Message() << radius << " " << share << " " << true_deformation; };
+        const auto where = [&] { return testing::Message() << radius << " " << fraction << " " << true_deformation; };
         EXPECT_NEAR(off.log_area, 0, 2.6e-3) << where();
         EXPECT_NEAR(off.deformation, 0, 1e-3) << where();
         EXPECT_NEAR(off.log_area_deviation, 0, log_ratio_of_deviations) << where();

@@ -34,7 +34,7 @@ TEST_F(ShapeMapOf, AnEllipseExplainsItsDeformationAlone) {
   const double ratio = 1.3, d = deformation_of_ellipse(ratio);
   EXPECT_NEAR(d, 0.0128, 1e-4);  // 3/4 c_2^2 with c_2 = (ratio - 1) / (ratio + 1), to second order
   const auto e = excess({{20, 0.04}, 0}, 100, d, ratio);
-  EXPECT_NEAR(e.odd_share, 0, 1e-9);
+  EXPECT_NEAR(e.odd_fraction, 0, 1e-9);
   EXPECT_NEAR(e.excess, ratio - (1 + 1.5 * d), 1e-6);
   EXPECT_TRUE(e.is_elongated());
   EXPECT_EQ(deformation_of_ellipse(1), 0);
@@ -54,7 +54,7 @@ TEST_F(ShapeMapOf, WithoutNumbersOrOutsideTheAreasNothingIsSaid) {
     EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, infinite, 1.1).excess)) << infinite;
   EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 10, 0.03, 1.1).excess));
   EXPECT_FALSE(excess({{20, 0.04}, 0}, 10, 0.03, 1.5).is_elongated());
-  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0, 1.1).odd_share));
+  EXPECT_TRUE(std::isnan(excess({{20, 0.04}, 0}, 100, 0, 1.1).odd_fraction));
 }
 
 }  // namespace

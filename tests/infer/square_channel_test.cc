@@ -83,14 +83,14 @@ DynamicTable tube_table() {
     const Settled& end = in_tube[i / times];
     CellCourse course = test::invented_course(content.spec, cells[i]);
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double share = 1 - std::exp(-(places[k] + 15) / (170 * (cells[i].time_ms + 0.03)));
+      const double fraction = 1 - std::exp(-(places[k] + 15) / (170 * (cells[i].time_ms + 0.03)));
       const auto set = [&](CourseMeasure measure, double value) {
         course.value(Eigen::Index(k), int(measure)) = value;
       };
-      set(CourseMeasure::area_ratio, 1 + share * (end.area_ratio - 1));
-      set(CourseMeasure::inertia_ratio, 1 + share * (end.inertia_ratio - 1));
-      set(CourseMeasure::mode_2, share * end.mode_2);
-      set(CourseMeasure::mode_3, share * end.mode_3);
+      set(CourseMeasure::area_ratio, 1 + fraction * (end.area_ratio - 1));
+      set(CourseMeasure::inertia_ratio, 1 + fraction * (end.inertia_ratio - 1));
+      set(CourseMeasure::mode_2, fraction * end.mode_2);
+      set(CourseMeasure::mode_3, fraction * end.mode_3);
     }
     content.courses.push_back(std::move(course));
   }
@@ -147,7 +147,7 @@ using Features = std::array<double, 9>;
 /// `rheocyte solve` gives them in the square with a bending stiffness of 2e3 kBT; none is one to which the law was
 /// fitted.
 struct InBoth {
-  double cortex_share, cortex_tension, thinning, error_factor;
+  double cortex_fraction, cortex_tension, thinning, error_factor;
   Features table, square;
 };
 constexpr std::array<InBoth, 9> in_both{{
@@ -218,14 +218,14 @@ TEST(SquareLaw, CellsSolvedInBothSectionsDifferAsItSaysWithinTheErrorThatItState
     const ShapeErrors change = change_by_square({.radius = std::sqrt(seen[0] * std::numbers::inv_pi) / 10,
                                                  .mode_2 = seen[3],
                                                  .mode_3 = seen[4],
-                                                 .cortex_share = cell.cortex_share,
+                                                 .cortex_fraction = cell.cortex_fraction,
                                                  .cortex_tension = cell.cortex_tension,
                                                  .thinning = cell.thinning});
     for (int k = 0; k < int(seen.size()); ++k) {
       const double wanted =
           k == 0 ? std::log(seen[0] / cell.table[0]) : seen[std::size_t(k)] - cell.table[std::size_t(k)];
       const double error = cell.error_factor * std::sqrt(change.covariance(k, k));
-      EXPECT_NEAR(change.bias(k), wanted, 3 * error) << cell.cortex_share << " " << k;
+      EXPECT_NEAR(change.bias(k), wanted, 3 * error) << cell.cortex_fraction << " " << k;
       chi_squared += std::pow((change.bias(k) - wanted) / error, 2);
     }
   }
@@ -233,8 +233,8 @@ TEST(SquareLaw, CellsSolvedInBothSectionsDifferAsItSaysWithinTheErrorThatItState
 }
 
 TEST(SquareLaw, BeyondItsCellsTheNearestCountsAndWithoutAsymmetryNothingChanges) {
-  const CellInSquare corner{.radius = 0.82, .mode_2 = 0.42, .mode_3 = 0.12, .cortex_share = 1};
-  const CellInSquare beyond{.radius = 0.95, .mode_2 = 0.6, .mode_3 = 0.3, .cortex_share = 1};
+  const CellInSquare corner{.radius = 0.82, .mode_2 = 0.42, .mode_3 = 0.12, .cortex_fraction = 1};
+  const CellInSquare beyond{.radius = 0.95, .mode_2 = 0.6, .mode_3 = 0.3, .cortex_fraction = 1};
   EXPECT_EQ(change_by_square(corner).bias, change_by_square(beyond).bias);
   EXPECT_EQ(change_by_square({.mode_3 = -0.01}).bias, ShapeVector::Zero());
 }

@@ -51,7 +51,7 @@ TEST(TimeCourse, NinetyPerCentIntervalsOfCellsSeenAtFourPlacesHoldNinetyPerCent)
     resolved += estimate.viscosity_Pas.is_resolved();
     EXPECT_NEAR(estimate.radius_um, cell.radius_um, 0.05);  // 0.3 % of the area are 0.01 um
   }
-  // The standard deviation of such a share is 1.3 %.
+  // The standard deviation of such a fraction is 1.3 %.
   EXPECT_NEAR(double(modulus) / cells, 0.9, 0.05);
   EXPECT_NEAR(double(viscosity) / cells, 0.9, 0.05);
   EXPECT_GT(resolved, cells / 3);

@@ -91,7 +91,7 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsThatOfMooneyAndRivlin) {
   // At det F = 1 the stress is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I.
   RandomStates random;
   for (const Bulk& bulk : laws) {
-    const double a = neo_hookean_share(bulk);
+    const double a = neo_hookean_fraction(bulk);
     for (int i = 0; i < states; ++i) {
       const Tensor<double> F = random.isochoric(), B = F * F.transpose();
       const Tensor<double> sigma = mu * (a * (B - I) + (1 - a) * (I - inverse(B)));
@@ -103,7 +103,7 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsThatOfMooneyAndRivlin) {
 /// Strain energy per volume of isochoric deformations: mu/2 [a (tr B - 3) + (1-a)(tr B^-1 - 3)].
 template <class T>
 T strain_energy(const Bulk& bulk, const Tensor<T>& F) {
-  const double a = neo_hookean_share(bulk);
+  const double a = neo_hookean_fraction(bulk);
   return (F.squaredNorm() - T(3)) * T(0.5 * mu * a) + (inverse(F).squaredNorm() - T(3)) * T(0.5 * mu * (1 - a));
 }
 
@@ -122,7 +122,7 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsTheDerivativeOfTheStrainEnergy) {
 /// mu/2 [a I1 + (1 - a) I2] - mu (2 - a) ln J, I2 = (I1^2 - B : B) / 2: the polyconvex energy off J = 1.
 template <class T>
 T polyconvex_energy(const Bulk& bulk, const Tensor<T>& F) {
-  const double a = neo_hookean_share(bulk);
+  const double a = neo_hookean_fraction(bulk);
   const Tensor<T> B = F * F.transpose();
   const T I1 = B.trace(), I2 = (I1 * I1 - B.squaredNorm()) * T(0.5);
   using std::log;
@@ -166,7 +166,7 @@ TEST(Bulk, AllLawsAgreeForSmallStrains) {
 TEST(Bulk, UniaxialTensionHasTheTextbookStress) {
   // sigma_x - sigma_r = mu [a (l^2 - 1/l) + (1 - a)(l - 1/l^2)] at stretch l, traction-free sides; slope E = 3 mu.
   for (const Bulk& bulk : laws) {
-    const double a = neo_hookean_share(bulk);
+    const double a = neo_hookean_fraction(bulk);
     for (const double l : {0.5, 0.9, 1.1, 2.0}) {
       const Tensor<double> F = test::diagonal(l, 1 / std::sqrt(l), 1 / std::sqrt(l));
       const Tensor<double> tau = elastic_stress(bulk, F);
@@ -180,7 +180,7 @@ TEST(Bulk, UniaxialTensionHasTheTextbookStress) {
 constexpr Bulk maxwell{.shear_modulus = 0, .viscosity = 0.4, .branch_modulus = mu};
 
 TEST(MaxwellBranch, ASuddenStrainFindsASpring) {
-  // In a step from rest that is far shorter than the relaxation time: mu (B - I), within the share of the step.
+  // In a step from rest that is far shorter than the relaxation time: mu (B - I), within the fraction of the step.
   RandomStates random;
   constexpr double rate = 1e9;
   for (int i = 0; i < states; ++i) {

@@ -162,7 +162,7 @@ TEST(Liquid, PressureGradientAndMeanSpeedAreInverse) {
 }
 
 TEST(Liquid, TheWayFromTheNewtonianLiquidHasItsEndsThere) {
-  // At share 0 the viscosity is 1 everywhere, at share 1 it is the liquid itself.
+  // At fraction 0 the viscosity is 1 everywhere, at fraction 1 it is the liquid itself.
   const Liquid liquid{LiquidLaw::power_law, 0.6, 0.1, 0.3};
   for (const double rate : {0.0, 0.7, 20.0}) EXPECT_EQ(viscosity(at_thinning(liquid, 0), rate * rate), 1);
   EXPECT_EQ(at_thinning(liquid, 1), liquid);

@@ -124,7 +124,7 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
       const Slopes<double, 2> slope{G(0, 0), G(0, 1), -0.5 * G(1, 0), -0.5 * G(1, 1)};
       const auto flux = CellPoint<2>{bulk, X}(Cell2<double>{{G, s * X.r}, random.number(-1, 1)});
       const double work = dot(flux.slope, slope) - 0.5 * (flux.value(1) * s * X.r);
-      const double a = neo_hookean_share(bulk), mu = bulk.shear_modulus;
+      const double a = neo_hookean_fraction(bulk), mu = bulk.shear_modulus;
       const double tension = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
       EXPECT_NEAR(work, tension * X.volume(), 10 * rounding);
     }

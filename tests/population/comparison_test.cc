@@ -98,7 +98,7 @@ TEST(ScatterBetween, OfRecordingsThatAgreeIsZeroWithAnUpperEnd) {
   EXPECT_TRUE(std::isnan(scatter_between({means.data(), 1}, 0.95).deviation));
 }
 
-TEST(Power, IsTheShareOfSimulatedExperimentsThatAreSignificant) {
+TEST(Power, IsTheFractionOfSimulatedExperimentsThatAreSignificant) {
   const Experiment experiment{500, 0.2, 0.1, 0.04};
   for (const int sessions : {3, 5}) {
     constexpr int experiments = 20000;

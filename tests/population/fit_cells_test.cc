@@ -67,7 +67,7 @@ TEST(FitCells, GatesThatKeepHalfTheCellsLeaveNoBias) {
   const Trials t(usual_cells(), 400, 30, gates);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(t.bias(i), 0, 4 * t.error(i) + (i > 1 ? 0.006 : 0)) << i;
   const FittedCells fitted = fit_cells(drawn_sample(usual_cells(), 400, 1, gates), two_threads());
-  EXPECT_NEAR(fitted.kept_share, 0.5, 0.15);
+  EXPECT_NEAR(fitted.kept_fraction, 0.5, 0.15);
 }
 
 /// Long cells are softer and larger, and many of the soft ones do not pass: what is left of these is no sample of all.

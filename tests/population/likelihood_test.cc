@@ -93,14 +93,14 @@ TEST(PopulationLikelihood, TheScoreIsItsSlopeAlsoWithGates) {
   }
 }
 
-TEST(KeptShare, IsTheShareOfDrawnEventsThatPass) {
+TEST(KeptFraction, IsTheFractionOfDrawnEventsThatPass) {
   const auto map = std::make_shared<InventedMap>();
   SampleGates gates = whole_map();
   gates.greatest_measure = 0.04;
   gates.least_log_area = 4.65;
   gates.least_measure = 0.02;
   const CellDistribution cells = usual_cells();
-  const KeptShare kept({map, gates, 0.69, 1});
+  const KeptFraction kept({map, gates, 0.69, 1});
   constexpr int draws = 200000;
   int passed = 0;
   for (int k = 0; k < draws; ++k) {
@@ -110,9 +110,9 @@ TEST(KeptShare, IsTheShareOfDrawnEventsThatPass) {
     const SeenValues seen = seen_values(*map, cell, random);
     passed += gates.pass(seen.log_area, seen.measure);
   }
-  const double share = double(passed) / draws;
+  const double fraction = double(passed) / draws;
   // Four standard errors of the draws.
-  EXPECT_NEAR(kept.answer(cells, false).share, share, 4 * std::sqrt(share * (1 - share) / draws));
+  EXPECT_NEAR(kept.answer(cells, false).fraction, fraction, 4 * std::sqrt(fraction * (1 - fraction) / draws));
 }
 
 TEST(PopulationLikelihood, AllOfItIsTheSameForAnyNumberOfThreads) {

@@ -81,12 +81,12 @@ TEST(NormalNodes, AGateCutsAlongItsValueAlone) {
   const Eigen::Vector3d across = slope.cross(Eigen::Vector3d::UnitX()).normalized();
   const Eigen::VectorXd places = nodes.place.transpose() * across;
   EXPECT_NEAR(places.cwiseAbs2().dot(nodes.weight), 1, 1e-12);
-  EXPECT_NEAR(share_within({0, HUGE_VAL}, value), 0.5, 1e-15);
+  EXPECT_NEAR(fraction_within({0, HUGE_VAL}, value), 0.5, 1e-15);
 }
 
 TEST(NormalNodes, WideGatesCutNothing) {
   const GatedValue value{0, Eigen::Vector3d(0.5, 0.1, 0)};
-  EXPECT_EQ(share_within({}, value), 1);
+  EXPECT_EQ(fraction_within({}, value), 1);
   const NormalNodes nodes = kept_nodes({}, value);
   for_powers([&](const Powers& p) {
     EXPECT_NEAR(mean_of(nodes, p), normal_moment(p[0]) * normal_moment(p[1]) * normal_moment(p[2]), 1e-9);

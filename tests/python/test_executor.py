@@ -25,10 +25,10 @@ def contents(folder):
 
 
 def test_a_process_pool_makes_the_table_of_threads(tmp_path, by_threads):
-    shares = []
+    fractions = []
     with concurrent.futures.ProcessPoolExecutor(2) as pool:
-        table = rheocyte.table(SPEC, tmp_path / "table", executor=pool, progress=shares.append)
-    assert table.identifier == "TEST" and shares[-1] == 1 and shares == sorted(shares)
+        table = rheocyte.table(SPEC, tmp_path / "table", executor=pool, progress=fractions.append)
+    assert table.identifier == "TEST" and fractions[-1] == 1 and fractions == sorted(fractions)
     assert contents(tmp_path / "table") == by_threads
 
 
@@ -38,8 +38,8 @@ def test_a_cluster_of_dask_that_loses_a_worker_makes_it_too(tmp_path, by_threads
         with distributed.Client(cluster) as client:
             victim = sorted(client.run(os.getpid).values())[0]
 
-            def kill_once(share, killed=[]):
-                if share < 1 and not killed:
+            def kill_once(fraction, killed=[]):
+                if fraction < 1 and not killed:
                     killed.append(victim)
                     os.kill(victim, signal.SIGKILL)
 

@@ -23,7 +23,7 @@ def interval(value):
 
 def recording(condition, session, modulus):
     found = {"median_young_modulus_kPa": interval(modulus), "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3,
-             "spread_of_ln_radius": 0.07, "correlation": 0.1, "kept_share": 0.9, "moduli_of_single_images": IMAGES}
+             "spread_of_ln_radius": 0.07, "correlation": 0.1, "kept_fraction": 0.9, "moduli_of_single_images": IMAGES}
     return {"recording": f"{condition}{session}.rtdc", "condition": condition, "session": session, "population": found,
             "events": {"fitted": 95}, "failure": None, "checks": [copy.deepcopy(CHECK)]}
 

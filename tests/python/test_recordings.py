@@ -19,9 +19,9 @@ KNOWN = {"channel_width_um": 20, "flow_rate_ul_s": 0.04, "medium": "CellCarrier"
 @needs_recordings
 def test_a_frame_holds_units_settings_and_the_numbers_of_the_command(program, tmp_path):
     file = REFERENCE / "rtdc" / "example.rtdc"
-    shares = []
-    frame = rheocyte.extract(file, progress=shares.append, pixel_size_um=0.34, **KNOWN)
-    assert shares[-1] == 1 and frame.attrs["units"]["young_modulus_kPa"] == "kPa" and frame.attrs["settings"]
+    fractions = []
+    frame = rheocyte.extract(file, progress=fractions.append, pixel_size_um=0.34, **KNOWN)
+    assert fractions[-1] == 1 and frame.attrs["units"]["young_modulus_kPa"] == "kPa" and frame.attrs["settings"]
     assert frame["state"].isin(rheocyte.STATES).all()
     has = np.isfinite(frame["young_modulus_kPa"])
     assert (frame["state"].isin(["valid", "regularised"]) == has).all() and has.any()
@@ -269,7 +269,7 @@ def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
 BULK_AND_CORTEX = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
                    "cell": {"bulk": {"law": "neo-hookean"},
                             "cortex": {"law": "neo-hookean", "tension_ratio": 0.1, "bending_kBT": 3e4}},
-                   "table": {"identifier": "SMALL-HC", "cortex_share": [0.2, 0.5, 0.8], "min_area_um2": 115,
+                   "table": {"identifier": "SMALL-HC", "cortex_fraction": [0.2, 0.5, 0.8], "min_area_um2": 115,
                              "max_area_um2": 150, "min_deformation": 8e-3, "max_deformation": 0.035, "radii": 3,
                              "accuracy": 2e-2}}
 
@@ -284,9 +284,9 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
                      "cortex": {"modulus_mN_per_m": {"mean": 10, "sd": 0.5}}},
             "shapes": {"table": str(folder)}}
     assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
-    shares = []
-    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=shares.append)
-    assert shares[-1] == 1 and frame.attrs["settings"]
+    fractions = []
+    frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=fractions.append)
+    assert fractions[-1] == 1 and frame.attrs["settings"]
     assert any("the channel is that of the table" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")

@@ -261,15 +261,15 @@ SMALL = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity
 
 def test_a_table_is_computed_in_a_folder(tmp_path):
     """Its moduli are those of direct solves; a second call goes on, here: has nothing left to do."""
-    shares = []
-    made = rheocyte.table(SMALL, tmp_path / "small", progress=shares.append)
-    assert made.identifier == "SMALL" and shares[-1] == 1
+    fractions = []
+    made = rheocyte.table(SMALL, tmp_path / "small", progress=fractions.append)
+    assert made.identifier == "SMALL" and fractions[-1] == 1
     state = rheocyte.solve(radius_um=5.3, young_modulus_kPa=6, cell__bulk__law="linear", **WATERY)
     found = made.modulus(state.area_um2, state.deformation, **SMOOTH)
     assert found.young_modulus_kPa == pytest.approx(6, rel=5e-3)
-    shares.clear()
-    again = rheocyte.table(SMALL, tmp_path / "small", progress=shares.append)
-    assert set(shares) == {1} and again.modulus(80, 0.005, **SMOOTH) == made.modulus(80, 0.005, **SMOOTH)
+    fractions.clear()
+    again = rheocyte.table(SMALL, tmp_path / "small", progress=fractions.append)
+    assert set(fractions) == {1} and again.modulus(80, 0.005, **SMOOTH) == made.modulus(80, 0.005, **SMOOTH)
     with pytest.raises(UserError, match="was begun as"):
         rheocyte.table(SMALL, tmp_path / "small", table__radii=6)
 

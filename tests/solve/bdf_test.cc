@@ -54,7 +54,7 @@ TEST(Bdf, TheErrorEstimateIsExactForPolynomialsOfOneDegreeMore) {
     const auto weights = extrapolation_weights(std::span(past).first(order + 1), now);
     double predicted = 0;
     for (int i = 0; i <= order; ++i) predicted += weights(i) * y(past[i]);
-    EXPECT_NEAR(formula.error_share * (value - predicted), value - y(now), 1e-9);
+    EXPECT_NEAR(formula.error_fraction * (value - predicted), value - y(now), 1e-9);
   }
 }
 

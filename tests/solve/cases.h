@@ -7,7 +7,7 @@ namespace rheocyte::test {
 struct CellInChannel {
   double radius_um = 6;
   double young_modulus_kPa = 4.58;
-  double mooney_share = 0;  ///< 0: linear, 1: neo-Hookean
+  double c1_fraction = 0;  ///< 0: linear, 1: neo-Hookean
 };
 
 inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
@@ -15,10 +15,10 @@ inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
   constexpr double stress_Pa = 145.864;  // eta U / R, U = Q / (pi R^2)
   Problem problem;
   problem.radius_ratio = cell.radius_um / tube_radius_um;
-  problem.bulk.law = cell.mooney_share == 0   ? BulkLaw::linear
-                     : cell.mooney_share == 1 ? BulkLaw::neo_hookean
-                                              : BulkLaw::mooney_rivlin;
-  problem.bulk.mooney_share = cell.mooney_share;
+  problem.bulk.law = cell.c1_fraction == 0   ? BulkLaw::linear
+                     : cell.c1_fraction == 1 ? BulkLaw::neo_hookean
+                                             : BulkLaw::mooney_rivlin;
+  problem.bulk.c1_fraction = cell.c1_fraction;
   problem.bulk.shear_modulus = 1e3 * cell.young_modulus_kPa / 3 / stress_Pa;
   problem.accuracy = accuracy;
   return problem;

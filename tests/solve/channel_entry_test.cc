@@ -19,8 +19,8 @@ namespace {
 constexpr double unit_us = 102.835;  // R/U of cases.h, R that of the narrow tube
 
 /// A cell of 7 um that starts 4 R before a contraction from 2 R to R.
-Problem entering_cell(double mooney_share = 1) {
-  Problem problem = test::problem({7, 4.58, mooney_share}, 1e-5);
+Problem entering_cell(double c1_fraction = 1) {
+  Problem problem = test::problem({7, 4.58, c1_fraction}, 1e-5);
   problem.liquid.reynolds = problem.bulk.reynolds = 0.0776;
   problem.bulk.viscosity = 1;
   problem.wall = {{4, 8}, {2, 1}};

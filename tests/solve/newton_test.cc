@@ -42,7 +42,7 @@ std::array<double, 2> one_step(CoarseProblem& coarse, const VectorXd& converged,
 TEST(Newton, AStepSquaresTheResidual) {
   // Halving the first residual quarters the one after a step: log(r1/r1') / log(r0/r0') = 2, for each law.
   std::vector<Problem> problems;
-  for (const double share : {0.0, 1.0, 0.5}) problems.push_back(test::problem({6, 4.58, share}));
+  for (const double fraction : {0.0, 1.0, 0.5}) problems.push_back(test::problem({6, 4.58, fraction}));
   problems.push_back(problems[1]);
   problems.back().liquid.reynolds = 0.3;
   for (const Problem& problem : problems) {

@@ -14,8 +14,8 @@
 namespace rheocyte::number_errors_test {
 namespace {
 
-/// Differences below this share of a number are rounding and the tolerance of Newton's method.
-constexpr double share_of_rounding = 1e-9;
+/// Differences below this fraction of a number are rounding and the tolerance of Newton's method.
+constexpr double fraction_of_rounding = 1e-9;
 
 /// Each number is as far from that of a much finer state as `factor` times the errors of both say at most; those that
 /// do not exist have no error. Of random cells one number in fifty is farther off than it says (docs/verification.md).
@@ -25,7 +25,7 @@ void expect_honest(const StationaryState& state, const StationaryState& fine, do
     if (measure.name == "offset_error_um") continue;
     EXPECT_EQ(std::isnan(value), std::isnan(error)) << measure.name;
     if (std::isnan(value)) continue;
-    const double rounding = share_of_rounding * std::max(std::abs(value), share_of_rounding);
+    const double rounding = fraction_of_rounding * std::max(std::abs(value), fraction_of_rounding);
     EXPECT_LE(std::abs(value - other), factor * (error + measure.value(fine.errors)) + rounding)
         << measure.name << " " << value << " " << other;
   }

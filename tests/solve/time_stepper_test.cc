@@ -17,8 +17,8 @@ namespace {
 constexpr double stress_Pa = 145.864, unit_us = 102.835;  // S and R/U of cases.h
 
 /// The paper's cell, viscous as the liquid, with inertia.
-Problem moving_cell(double mooney_share) {
-  Problem problem = test::problem({7.66, 3.437, mooney_share}, 1e-4);
+Problem moving_cell(double c1_fraction) {
+  Problem problem = test::problem({7.66, 3.437, c1_fraction}, 1e-4);
   problem.liquid.reynolds = problem.bulk.reynolds = 0.0776;
   problem.bulk.viscosity = 1;
   return problem;

@@ -21,13 +21,13 @@ struct Inner {
 
 struct Outer {
   int number = 0;
-  std::optional<double> share;
+  std::optional<double> fraction;
   std::array<std::size_t, 3> counts{};
   std::vector<Inner> inner;
   std::vector<std::string> words;
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.number, s.share, s.counts, s.inner, s.words);
+    return std::tie(s.number, s.fraction, s.counts, s.inner, s.words);
   }
 };
 
@@ -41,7 +41,7 @@ TEST(Bytes, AValueComesBackAsItWas) {
   const auto back = from_bytes<Outer>(to_bytes(value));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->number, value.number);
-  EXPECT_EQ(back->share, value.share);
+  EXPECT_EQ(back->fraction, value.fraction);
   EXPECT_EQ(back->counts, value.counts);
   ASSERT_EQ(back->inner.size(), 2U);
   EXPECT_EQ(back->inner[0].name, value.inner[0].name);

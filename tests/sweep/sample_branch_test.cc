@@ -59,7 +59,7 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
   // the modes between the samples are those of direct solves to 1e-3.
   const TableSpec table =
       spec("[cell.bulk]\nlaw = \"neo-hookean\"\n[cell.cortex]\nlaw = \"neo-hookean-reference\"\nbending_kBT = 3e4\n",
-           "cortex_share = [0, 0.5]\ntension_ratio = [0.25]\naxial_ratio = [-0.1, 0, 0.2, 0.4]\naccuracy = 2e-3\n"
+           "cortex_fraction = [0, 0.5]\ntension_ratio = [0.25]\naxial_ratio = [-0.1, 0, 0.2, 0.4]\naccuracy = 2e-3\n"
            "max_deformation = 0.012\nmax_deformation_raw = 0.015\nmin_deformation = 1e-3\n");
   const SweepPoint place{6.7, 0.5, 0.25, 0.4};
   const SampledBranch branch = sample_branch(table, place);

@@ -21,8 +21,8 @@ CombinedShapes invented_shapes(const SimulatedCells& cells) {
 }
 
 VirtualCell cell_of(const SweepPoint& place, double S) {
-  const double cortex = place.cortex_share * S * place.radius_um;
-  return {place.radius_um, (1 - place.cortex_share) * S, 15, cortex, place.tension_ratio * cortex};
+  const double cortex = place.cortex_fraction * S * place.radius_um;
+  return {place.radius_um, (1 - place.cortex_fraction) * S, 15, cortex, place.tension_ratio * cortex};
 }
 
 class Combined : public testing::Test {
@@ -37,7 +37,7 @@ TEST_F(Combined, ShapesLieBetweenTheBranches) {
        {SweepPoint{6.3, 0.4, 0.15}, {7.1, 0.06, 0.2}, {5.2, 0.93, 0.02}, {7, 0, 0}, {6.6, 1, 0.3}})
     for (const double S : {1.5, 2.5}) {
       const auto found = shapes_.shape(cell_of(place, S));
-      ASSERT_TRUE(std::holds_alternative<CellShape>(found)) << place.radius_um << " " << place.cortex_share;
+      ASSERT_TRUE(std::holds_alternative<CellShape>(found)) << place.radius_um << " " << place.cortex_fraction;
       const auto& shape = std::get<CellShape>(found);
       const Eigen::MatrixX2d outline = test::invented_outline(place, S);
       const OutlineShape exact = outline_shape(outline), drawn = outline_shape(mirrored(shape.meridian));

@@ -72,7 +72,7 @@ TEST(CombinedTable, AsOneFileItGivesBackTheSameBitsAndDamageIsRefusedInASentence
 TEST(CombinedTable, HoldsTheModesOfTheContours) {
   // Those of an ellipse-like contour, with slopes against differences of the contour: both are exact to 1e-4 of c2 ~ d.
   auto branch = invented_branch(7);
-  branch.cortex_share = 0.25;
+  branch.cortex_fraction = 0.25;
   TableSpec spec;
   const auto combined = make_combined_table(spec, std::vector{branch}).branches.at(0);
   const int i = branch.samples() - 3;
@@ -103,7 +103,7 @@ class Interpolation : public testing::Test {
 
 TEST_F(Interpolation, BetweenTheBranchesItIsTheInventedCell) {
   // The stiffness at a deformation leads to a cell of this deformation, area, moments and modes: 16 samples, 7 radii
-  // and 5 shares of smooth functions leave less than 1e-3 in the middle and three times as much near the borders.
+  // and 5 fractions of smooth functions leave less than 1e-3 in the middle and three times as much near the borders.
   for (int trial = 0; trial < 50; ++trial) {
     const CellCoordinates cell = random_cell();
     const CombinedState state = between_.at(cell);
@@ -129,20 +129,20 @@ TEST_F(Interpolation, GradientsAreThoseOfTheValues) {
 }
 
 TEST_F(Interpolation, TheWeightsOfTheBranchesAreThoseOfTheState) {
-  // They sum to one and give back radius and share of the cell, to the rounding of 64 terms.
+  // They sum to one and give back radius and fraction of the cell, to the rounding of 64 terms.
   const CombinedTable& table = whole_combined_table();
   for (int trial = 0; trial < 20; ++trial) {
     const CellCoordinates cell = random_cell();
-    double sum = 0, log_radius = 0, share = 0;
+    double sum = 0, log_radius = 0, fraction = 0;
     for (const auto& [branch, weight, stiffness] : between_.weights(cell)) {
       const SweepPoint& place = table.branches.at(std::size_t(branch)).place;
       sum += weight;
       log_radius += weight * std::log(place.radius_um);
-      share += weight * place.cortex_share;
+      fraction += weight * place.cortex_fraction;
     }
     EXPECT_NEAR(sum, 1, 1e-10);
     EXPECT_NEAR(log_radius, cell(0), 1e-10);
-    EXPECT_NEAR(share, cell(1), 1e-10);
+    EXPECT_NEAR(fraction, cell(1), 1e-10);
   }
   EXPECT_TRUE(between_.weights(between_.box().greatest + CellCoordinates::Ones()).empty());
 }
@@ -152,7 +152,7 @@ TEST_F(Interpolation, NothingJumpsWhereABranchEnds) {
   // by more than its slopes say.
   CombinedTable table = whole_combined_table();
   std::erase_if(table.branches,
-                [](const CombinedBranch& b) { return b.place.radius_um == 7.0 && b.place.cortex_share == 0.5; });
+                [](const CombinedBranch& b) { return b.place.radius_um == 7.0 && b.place.cortex_fraction == 0.5; });
   for (std::size_t i = 0; i < table.branches.size(); i += 5) {
     CombinedBranch& branch = table.branches[i];
     const int samples = branch.samples() - 4;
@@ -190,7 +190,7 @@ TEST(ElongatedTable, HasAColumnOfTheAxialRatio) {
   // And reads back to the same bits; a table of round cells has none.
   const CombinedTable& table = whole_elongated_table();
   const std::string csv = combined_table_csv(table);
-  EXPECT_TRUE(csv.starts_with("radius_um,cortex_share,tension_ratio,axial_ratio,stiffness_kPa"));
+  EXPECT_TRUE(csv.starts_with("radius_um,cortex_fraction,tension_ratio,axial_ratio,stiffness_kPa"));
   const CombinedTable back = parse_combined_table(table.spec, csv, "combined.csv");
   ASSERT_EQ(back.branches.size(), table.branches.size());
   for (std::size_t i = 0; i < table.branches.size(); ++i) {
@@ -213,7 +213,7 @@ CellCoordinates random_elongated_cell(const CombinedInterpolation& between, std:
 
 TEST(ElongatedTable, BetweenTheBranchesItIsTheInventedCell) {
   // The stiffness at a place along the branches leads to a cell of this third mode at every tension: cubics through
-  // five radii, four shares and five axial ratios leave 2e-3 of it, and 5e-4 in the others.
+  // five radii, four fractions and five axial ratios leave 2e-3 of it, and 5e-4 in the others.
   const CombinedInterpolation between(whole_elongated_table());
   std::mt19937 engine(2);
   for (int trial = 0; trial < 50; ++trial) {
@@ -245,7 +245,7 @@ TEST(ElongatedTable, GradientsAreThoseOfTheValues) {
   }
 }
 
-TEST(CombinedSpec, SharesAndTensionsMakeTheSweep) {
+TEST(CombinedSpec, FractionsAndTensionsMakeTheSweep) {
   // Radius by radius; cells without a cortex once, pure ones without the other law; it reads back from its own text.
   const TableSpec spec = parse_table_spec(combined_spec, "spec.toml");
   EXPECT_TRUE(spec.is_combined());
@@ -274,15 +274,15 @@ TEST(CombinedSpec, WhatDoesNotGoTogetherIsRefused) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   };
-  refuse({"table.cortex_share=[0, 2]"}, "table.cortex_share contains 2, which is outside its range");
-  refuse({"table.cortex_share=[0.5, 0]"}, "must ascend");
-  refuse({"table.cortex_share=[0.5]"}, "at least two shares");
-  refuse({"table.cortex_share=0.5"}, "is not a list of numbers");
-  refuse({"table.stiffness=cell.bulk.young_modulus_kPa"}, "does not go with table.cortex_share");
+  refuse({"table.cortex_fraction=[0, 2]"}, "table.cortex_fraction contains 2, which is outside its range");
+  refuse({"table.cortex_fraction=[0.5, 0]"}, "must ascend");
+  refuse({"table.cortex_fraction=[0.5]"}, "at least two fractions");
+  refuse({"table.cortex_fraction=0.5"}, "is not a list of numbers");
+  refuse({"table.stiffness=cell.bulk.young_modulus_kPa"}, "does not go with table.cortex_fraction");
   refuse({"cell.bulk.law=none"}, "needs a law of the bulk and one of the cortex");
   refuse({"cell.bulk.young_modulus_kPa=3"}, "because a table sweeps it");
   refuse({"cell.cortex.tension_ratio=0.1"}, "exclude each other");
-  refuse({"cell.cortex.tension_mN_per_m=0.1"}, "does not go with table.cortex_share");
+  refuse({"cell.cortex.tension_mN_per_m=0.1"}, "does not go with table.cortex_fraction");
   refuse({"table.bending_beyond_kBT=1e5"}, "has no effect on combined cells");
 }
 

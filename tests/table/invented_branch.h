@@ -95,13 +95,13 @@ inline SampledBranch invented_branch(double radius, const InventedSweep& sweep =
   branch.value.resize(sweep.samples, measure_count);
   branch.slope.resize(sweep.samples, measure_count);
   for (int i = 0; i < sweep.samples; ++i) {
-    const double share = double(i) / (sweep.samples - 1);
-    const double stiffness = sweep.stiffest * std::pow(sweep.softest / sweep.stiffest, share);
+    const double fraction = double(i) / (sweep.samples - 1);
+    const double stiffness = sweep.stiffest * std::pow(sweep.softest / sweep.stiffest, fraction);
     const auto state = invented_state(radius, stiffness, sweep.bending);
     branch.stiffness.push_back(stiffness);
     branch.value.row(i) = state.col(0).transpose();
     branch.slope.row(i) = state.col(1).transpose();
-    branch.error.push_back(1e-4 * (1 + share));
+    branch.error.push_back(1e-4 * (1 + fraction));
     const double d = state(0, 0);
     branch.contour.push_back(invented_contour(radius, d));
     branch.contour_slope.push_back((invented_contour(radius, d + 0.5) - invented_contour(radius, d - 0.5)) *

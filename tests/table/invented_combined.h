@@ -9,13 +9,13 @@ namespace rheocyte::test {
 
 /// The outline of a cell in um. The cortex lifts the third mode and lowers the second, the tension changes the fourth.
 inline Eigen::MatrixX2d invented_outline(const SweepPoint& place, double stiffness) {
-  const auto& [radius, share, ratio, axial] = place;
-  const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
+  const auto& [radius, fraction, ratio, axial] = place;
+  const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = fraction * ratio;
   std::array<double, mode_count> modes{};
-  modes[0] = a * (1 - 0.4 * share) * (1 + 0.3 * a);
-  modes[1] = -a * (0.05 + 0.35 * share + 0.3 * tension);
-  modes[2] = a * (0.04 - 0.15 * share + 0.6 * tension);
-  modes[3] = a * (0.1 * share * share - 0.3 * tension);
+  modes[0] = a * (1 - 0.4 * fraction) * (1 + 0.3 * a);
+  modes[1] = -a * (0.05 + 0.35 * fraction + 0.3 * tension);
+  modes[2] = a * (0.04 - 0.15 * fraction + 0.6 * tension);
+  modes[3] = a * (0.1 * fraction * fraction - 0.3 * tension);
   return outline_of_modes(modes, std::numbers::pi * radius * radius * (1 + 0.2 * a), 300);
 }
 
@@ -24,15 +24,15 @@ inline ShapeVector invented_features(const SweepPoint& place, double stiffness) 
   return shape_vector(outline_shape(invented_outline(place, stiffness)));
 }
 
-/// States of which the stiffness falls from `stiffest` to this share of it; `features_of` a place and a stiffness.
+/// States of which the stiffness falls from `stiffest` to this fraction of it; `features_of` a place and a stiffness.
 template <class Features>
-CombinedBranch invented_branch_of(const SweepPoint& place, int samples, double stiffest, double softest_share,
+CombinedBranch invented_branch_of(const SweepPoint& place, int samples, double stiffest, double softest_fraction,
                                   const Features& features_of) {
   CombinedBranch branch{
       place, {}, Eigen::MatrixXd(samples, feature_count), Eigen::MatrixXd(samples, feature_count), {}};
   const double step = 1e-4;
   for (int i = 0; i < samples; ++i) {
-    const double S = stiffest * std::pow(softest_share, double(i) / (samples - 1));
+    const double S = stiffest * std::pow(softest_fraction, double(i) / (samples - 1));
     branch.stiffness_kPa.push_back(S);
     branch.error.push_back(1e-4);
     const auto exact = [&](double log_step) {
@@ -55,7 +55,7 @@ inline SampledBranch invented_combined_samples(const SweepPoint& place, int samp
   const CombinedBranch features = invented_combined_branch(place, samples);
   SampledBranch branch;
   branch.radius_um = place.radius_um;
-  branch.cortex_share = place.cortex_share;
+  branch.cortex_fraction = place.cortex_fraction;
   branch.tension_ratio = place.tension_ratio;
   branch.stiffness = features.stiffness_kPa;
   branch.error = features.error;
@@ -93,7 +93,7 @@ law = "neo-hookean"
 bending_kBT = 1e4
 [table]
 identifier = "XC-2D-26"
-cortex_share = [0, 0.125, 0.25, 0.5, 0.75, 0.875, 1]
+cortex_fraction = [0, 0.125, 0.25, 0.5, 0.75, 0.875, 1]
 tension_ratio = [0, 0.15, 0.3]
 min_area_um2 = 60
 max_area_um2 = 220

@@ -11,14 +11,14 @@ namespace rheocyte::test {
 
 /// The outline of a cell in um: that of the flow, drawn out.
 inline Eigen::MatrixX2d invented_elongated_outline(const SweepPoint& place, double stiffness) {
-  const auto& [radius, share, ratio, axial] = place;
-  const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = share * ratio;
+  const auto& [radius, fraction, ratio, axial] = place;
+  const double a = 0.3 * std::pow(radius / 8, 1.5) / stiffness, tension = fraction * ratio;
   std::array<double, mode_count> modes{};
   modes[0] = 0.8 * a * a;
-  modes[1] = a * (0.5 - 0.2 * share);
-  modes[2] = -a * (0.02 + 0.12 * share - 0.2 * tension);
-  modes[3] = a * (0.02 + 0.1 * share * share - 0.1 * tension);
-  modes[5] = a * (0.01 - 0.04 * share + 0.08 * tension);
+  modes[1] = a * (0.5 - 0.2 * fraction);
+  modes[2] = -a * (0.02 + 0.12 * fraction - 0.2 * tension);
+  modes[3] = a * (0.02 + 0.1 * fraction * fraction - 0.1 * tension);
+  modes[5] = a * (0.01 - 0.04 * fraction + 0.08 * tension);
   Eigen::MatrixX2d outline = outline_of_modes(modes, std::numbers::pi * radius * radius, 300);
   const double stretch = std::exp(0.5 * axial * (1 - 0.5 * tension));
   outline.col(0) *= stretch;
@@ -42,7 +42,7 @@ law = "neo-hookean"
 bending_kBT = 1e4
 [table]
 identifier = "XC-2D-EL-26"
-cortex_share = [0, 0.25, 0.5, 0.75]
+cortex_fraction = [0, 0.25, 0.5, 0.75]
 tension_ratio = [0.05, 0.25, 0.5]
 axial_ratio = [-0.1, 0, 0.15, 0.3, 0.45]
 min_area_um2 = 80

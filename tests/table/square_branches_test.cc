@@ -22,23 +22,23 @@ TableSpec square_spec(const std::string& more = "radii = 20\n") {
                           "test");
 }
 
-/// Cells of the square deform more than those of the tube by a share that grows with their size and falls with d.
+/// Cells of the square deform more than those of the tube by a fraction that grows with their size and falls with d.
 double ratio(double radius, double deformation) {
   return 1 + 0.1 * std::pow(radius / 10, 3) * (1 - 0.5 * std::sqrt(deformation));
 }
 
 /// Of the invented tube, at moduli that are `ratio` times as great. The last state of one of the branches lies at a
-/// `share` of the others' sqrt(d).
+/// `fraction` of the others' sqrt(d).
 std::vector<SampledBranch> computed_branches(const TableSpec& spec, const std::vector<double>& radii_um,
-                                             double share_of_one = 1) {
+                                             double fraction_of_one = 1) {
   std::vector<SampledBranch> branches;
   for (const double radius : radii_um) {
     auto sweep = test::covering(spec, radius, *spec.computed_states);
     SampledBranch branch = test::invented_branch(radius, sweep);
     // The states are those of points of Chebyshev's polynomials in sqrt(d).
     for (int k = 0; k < branch.samples(); ++k) {
-      const double share = branches.size() == 3 ? share_of_one : 1;
-      const double height = share * (0.525 - 0.475 * std::cos(std::numbers::pi * k / (branch.samples() - 1)));
+      const double fraction = branches.size() == 3 ? fraction_of_one : 1;
+      const double height = fraction * (0.525 - 0.475 * std::cos(std::numbers::pi * k / (branch.samples() - 1)));
       const double d = height * height * spec.max_deformation, E = test::invented_stiffness(radius, d);
       const auto state = test::invented_state(radius, E);
       branch.value.row(k) = state.col(0).transpose();
@@ -52,8 +52,8 @@ std::vector<SampledBranch> computed_branches(const TableSpec& spec, const std::v
   return branches;
 }
 
-std::vector<SampledBranch> computed_branches(const TableSpec& spec, double share_of_one = 1) {
-  return computed_branches(spec, computed_radii_um(spec), share_of_one);
+std::vector<SampledBranch> computed_branches(const TableSpec& spec, double fraction_of_one = 1) {
+  return computed_branches(spec, computed_radii_um(spec), fraction_of_one);
 }
 
 GridContent tube_grid() {
@@ -118,8 +118,8 @@ TEST(SquareBranches, ComputedRadiiAreDenserAtBothEndsAndTowardsTheWall) {
 TEST(SquareBranches, ABranchWhoseLastStateLiesElsewhereDoesNotSpoilItsNeighbours) {
   const TableSpec spec = square_spec("radii = 20\ncomputed_radii = 12\ncomputed_states = 10\n");
   const double equal_ends = max_difference(square_branches(spec, computed_branches(spec), nullptr));
-  for (const double share : {0.97, 1.03})
-    EXPECT_LT(max_difference(square_branches(spec, computed_branches(spec, share), nullptr)), 3 * equal_ends);
+  for (const double fraction : {0.97, 1.03})
+    EXPECT_LT(max_difference(square_branches(spec, computed_branches(spec, fraction), nullptr)), 3 * equal_ends);
 }
 
 TEST(SquareBranches, AtTheComputedStatesTheyAreThese) {

@@ -107,18 +107,18 @@ TEST(TableSpec, ACaseOfTheSweepHasItsRadiusStiffnessAndAccuracy) {
 
 TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   // c_b = 1e-3 S r0^3 in k_B T of 4.11643e-21 J: 2 kPa and 6 um have 4.32e-16 J; dimensionless it is the same for all.
-  const std::vector<std::string> combined{"cell.cortex.law=neo-hookean", "table.cortex_share=[0, 0.5, 1]",
+  const std::vector<std::string> combined{"cell.cortex.law=neo-hookean", "table.cortex_fraction=[0, 0.5, 1]",
                                           "table.bending_ratio=1e-3", "table.max_deformation_raw=0.16"};
   const auto spec = read(short_spec, combined);
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const Case c = case_at(spec, {6, share, 0}, 2);
+  for (const double fraction : {0.0, 0.5, 1.0}) {
+    const Case c = case_at(spec, {6, fraction, 0}, 2);
     EXPECT_NEAR(c.cell.cortex.bending_kBT, 4.32e-16 / 4.11643e-21, 1);
   }
   const auto again = read(to_toml(spec));
   EXPECT_EQ(spec_hash(again), spec_hash(spec));
   EXPECT_EQ(again.max_deformation_raw, 0.16);
   EXPECT_EQ(to_toml(read(short_spec)).find("bending_ratio"), std::string::npos) << "tables without it stay the same";
-  expect_refusal("table.bending_ratio=1e-3", "has no effect without table.cortex_share");
+  expect_refusal("table.bending_ratio=1e-3", "has no effect without table.cortex_fraction");
   auto both = combined;
   both.emplace_back("cell.cortex.bending_kBT=1e4");
   EXPECT_NE(refusal(short_spec, both).find("exclude each other"), std::string::npos);

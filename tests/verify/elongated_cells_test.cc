@@ -103,10 +103,10 @@ TEST(ElongatedCells, OfOneElongationHaveOneAsymmetryWhetherATensionOrTheirRestSh
     const Solved rested = solved(modulus, "cell.rest_aspect = 1.5"),
                  less = solved(modulus, fmt::format("flow.axial_tension_Pa = {}", below)),
                  more = solved(modulus, fmt::format("flow.axial_tension_Pa = {}", above));
-    const double share = (rested.mode(2) - less.mode(2)) / (more.mode(2) - less.mode(2));
-    EXPECT_GT(share, 0);
-    EXPECT_LT(share, 1);
-    EXPECT_NEAR(std::lerp(less.mode(3), more.mode(3), share) / rested.mode(3), 1, 0.02) << modulus;
+    const double fraction = (rested.mode(2) - less.mode(2)) / (more.mode(2) - less.mode(2));
+    EXPECT_GT(fraction, 0);
+    EXPECT_LT(fraction, 1);
+    EXPECT_NEAR(std::lerp(less.mode(3), more.mode(3), fraction) / rested.mode(3), 1, 0.02) << modulus;
   }
 }
 
@@ -114,7 +114,7 @@ TEST(ElongatedCells, WithACortexHaveTheShapeOfHL60CellsUnderOneTension) {
   // Medians of 1396 cells of Urbanska et al. (Nat Methods 2020; docs/real-cells.md), less what pixels add: area and six
   // modes are met by bulk, cortex and one axial tension in the square channel and CellCarrier, which no cell without a
   // tension comes near to (chi squared of at least 1280). The deformation is not fitted.
-  constexpr double area_um2 = 145, deformation = 0.070, share_of_area = 0.004, of_mode_2 = 0.004, of_mode = 0.0028;
+  constexpr double area_um2 = 145, deformation = 0.070, fraction_of_area = 0.004, of_mode_2 = 0.004, of_mode = 0.0028;
   constexpr std::array<double, 6> measured{0.2437, 0.0712, 0.0103, 0.0529, -0.0112, 0.0173};
   const Case c = parse_case(
       "channel.section = \"square\"\nchannel.width_um = 20\nflow.rate_ul_per_s = 0.04\nflow.law = \"power-law\"\n"
@@ -127,7 +127,7 @@ TEST(ElongatedCells, WithACortexHaveTheShapeOfHL60CellsUnderOneTension) {
   const StationaryState cell = Session().solve(problem_of(c));
   ASSERT_EQ(cell.outcome.status, Status::converged);
   const MeasuredState seen = measure_state(cell, scales_of(c));
-  double chi_squared = std::pow(std::log(seen.value(int(Measure::area_um2)) / area_um2) / share_of_area, 2);
+  double chi_squared = std::pow(std::log(seen.value(int(Measure::area_um2)) / area_um2) / fraction_of_area, 2);
   for (std::size_t i = 0; i < measured.size(); ++i)
     chi_squared +=
         std::pow((cell.shape.modes[i + 2 - first_radius_mode] - measured[i]) / (i == 0 ? of_mode_2 : of_mode), 2);

@@ -15,21 +15,21 @@ Problem random_cell(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   Problem cell;
   cell.radius_ratio = 0.1 + 0.85 * unit(random);
-  const double modulus = cell.radius_ratio * std::exp(1.9 + 2.5 * unit(random)), share = unit(random);
+  const double modulus = cell.radius_ratio * std::exp(1.9 + 2.5 * unit(random)), fraction = unit(random);
   switch (int(5 * unit(random))) {
     case 0: cell.bulk = {BulkLaw::linear, modulus, 0}; break;
     case 1: cell.bulk = {BulkLaw::neo_hookean, modulus, 1}; break;
-    case 2: cell.bulk = {BulkLaw::mooney_rivlin, modulus, share}; break;
+    case 2: cell.bulk = {BulkLaw::mooney_rivlin, modulus, fraction}; break;
     case 3:
       cell.bulk = {BulkLaw::neo_hookean, modulus, 1};
       cell.cortex.law = CortexLaw::linear;
-      cell.cortex.modulus = share * modulus * cell.radius_ratio;
+      cell.cortex.modulus = fraction * modulus * cell.radius_ratio;
       cell.cortex.tension = 0.2 * modulus * cell.radius_ratio;
       break;
     default:
       cell.bulk = {BulkLaw::linear, modulus, 0};
       cell.liquid.law = LiquidLaw::power_law;
-      cell.liquid.exponent = 0.5 + 0.5 * share;
+      cell.liquid.exponent = 0.5 + 0.5 * fraction;
   }
   cell.accuracy = std::pow(10, -2 - 2 * unit(random));
   return cell;

@@ -17,11 +17,11 @@ struct LinearResponse {
 constexpr LinearResponse exact[] = {{0.3, 1.99556793e-01}, {0.5, 6.41486625e-01}, {0.7, 2.15020931e+00}};
 
 /// Relative difference of the deformation from the linear response where that is `deformation`.
-double difference(const LinearResponse& response, double deformation, double mooney_share) {
+double difference(const LinearResponse& response, double deformation, double c1_fraction) {
   const double capillary = std::sqrt(deformation / response.per_square);
   Problem problem;
   problem.radius_ratio = response.lambda;
-  problem.bulk.law = mooney_share == 0 ? BulkLaw::linear : BulkLaw::neo_hookean;
+  problem.bulk.law = c1_fraction == 0 ? BulkLaw::linear : BulkLaw::neo_hookean;
   problem.bulk.shear_modulus = std::numbers::pi / (3 * capillary);  // E = 3 mu, and eta Q / R^3 = pi S
   problem.accuracy = 1e-5;
   const StationaryState state = solve_stationary(problem);
@@ -33,10 +33,10 @@ class SmallDeformation : public testing::TestWithParam<LinearResponse> {};
 
 TEST_P(SmallDeformation, TendsToTheLinearResponseOfTheSolid) {
   // The difference falls with Ca, in proportion to Ca^2, and is below 0.5 % at d = 1e-4, for both laws.
-  for (const double mooney_share : {0.0, 1.0}) {
-    const double coarse = difference(GetParam(), 1e-3, mooney_share);
-    const double fine = difference(GetParam(), 1e-4, mooney_share);
-    const double finest = difference(GetParam(), 1e-6, mooney_share);
+  for (const double c1_fraction : {0.0, 1.0}) {
+    const double coarse = difference(GetParam(), 1e-3, c1_fraction);
+    const double fine = difference(GetParam(), 1e-4, c1_fraction);
+    const double finest = difference(GetParam(), 1e-6, c1_fraction);
     EXPECT_LT(std::abs(fine), 5e-3);      // wanted of the program; it has 6e-4 at most
     EXPECT_NEAR(coarse / fine, 10, 0.5);  // next order: 1 + c Ca^2 + ..., c d of 1e-2 at most
     EXPECT_LT(std::abs(finest), 2e-5);    // accuracy asked for, 1e-5, twice; the physical rest is 6e-6

@@ -32,7 +32,7 @@ const greatestZoom = 12;
 
 const between = (low: number, high: number, value: number) => Math.max(low, Math.min(high, value));
 
-/** Walls take a fixed share of the height; long channels are cut at both sides. */
+/** Walls take a fixed fraction of the height; long channels are cut at both sides. */
 export function stageOf(width: number, height: number, radius_um: number, fields: Fields | null, lens = wholePicture): Stage {
   const wall = 22;
   const plain = (height - 2 * wall) / (2 * radius_um);

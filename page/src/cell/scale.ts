@@ -53,15 +53,15 @@ export function placeOf(scale: SliderScale, value: number): number {
   const { low, high, kind } = scale;
   if (kind === 'linear') return Math.round((steps * (value - low)) / (high - low));
   if (value <= 0) return 0;
-  const share = Math.log(value / low) / Math.log(high / low);
-  return Math.round(Math.max(kind === 'log' ? 0 : 1, Math.min(steps, steps * share)));
+  const fraction = Math.log(value / low) / Math.log(high / low);
+  return Math.round(Math.max(kind === 'log' ? 0 : 1, Math.min(steps, steps * fraction)));
 }
 
 export function valueOf(scale: SliderScale, place: number, whole = false): number {
   const { low, high, kind } = scale;
   if (kind === 'log-from-zero' && place <= 0) return 0;
-  const share = place / steps;
-  const value = kind === 'linear' ? low + share * (high - low) : low * (high / low) ** share;
+  const fraction = place / steps;
+  const value = kind === 'linear' ? low + fraction * (high - low) : low * (high / low) ** fraction;
   return whole ? Math.round(value) : rounded(value, 4);
 }
 

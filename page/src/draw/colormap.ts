@@ -44,8 +44,8 @@ const length = (a: Triple, b: Triple) => Math.hypot(a[0] - b[0], a[1] - b[1], a[
 function labAt(anchors: Triple[], places: number[], at: number): Triple {
   let k = 0;
   while (k < anchors.length - 2 && places[k + 1] < at) ++k;
-  const share = (at - places[k]) / (places[k + 1] - places[k]);
-  return anchors[k].map((c, d) => c + share * (anchors[k + 1][d] - c)) as Triple;
+  const fraction = (at - places[k]) / (places[k + 1] - places[k]);
+  return anchors[k].map((c, d) => c + fraction * (anchors[k + 1][d] - c)) as Triple;
 }
 
 export interface ColorMap {

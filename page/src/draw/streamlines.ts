@@ -55,10 +55,10 @@ function look(grid: Grid, x: number, r: number): boolean {
   for (let corner = 0; corner < 4; ++corner) {
     const at = (j + (corner >> 1)) * frame.width + i + (corner & 1);
     if (!inside[at]) continue;
-    const share = (corner & 1 ? s : 1 - s) * (corner >> 1 ? t : 1 - t);
-    u += share * grid.u[at];
-    v += share * grid.v[at];
-    weight += share;
+    const fraction = (corner & 1 ? s : 1 - s) * (corner >> 1 ? t : 1 - t);
+    u += fraction * grid.u[at];
+    v += fraction * grid.v[at];
+    weight += fraction;
   }
   const speed = Math.hypot(u, v);
   way[0] = u / speed;
@@ -90,7 +90,7 @@ function follow(grid: Grid, start: [number, number], sense: 1 | -1): [number, nu
 function seeds(frame: Frame, radius_um: number): [number, number][] {
   const right = frame.left_um + frame.width / frame.pixels_per_um;
   const margin = 2 / frame.pixels_per_um;
-  const above = [0.06, 0.19, 0.32, 0.45, 0.56, 0.72, 0.83, 0.94].map((share) => share * radius_um);
+  const above = [0.06, 0.19, 0.32, 0.45, 0.56, 0.72, 0.83, 0.94].map((fraction) => fraction * radius_um);
   const across = frame.low_um < 0 ? [...above, ...above.map((r) => -r)] : above;
   return [frame.left_um + margin, right - margin].flatMap((x) => across.map((r): [number, number] => [x, r]));
 }

@@ -102,11 +102,11 @@ function spreadOfCounts(counts: Float64Array, count: number): number {
   let squares = 0;
   counts.forEach((value, k) => (squares += value * (k - mean) ** 2));
   const spread = Math.sqrt(squares / count);
-  const byQuartiles = (placeOfShare(counts, 0.75 * count) - placeOfShare(counts, 0.25 * count)) / 1.349;
+  const byQuartiles = (placeOfFraction(counts, 0.75 * count) - placeOfFraction(counts, 0.25 * count)) / 1.349;
   return byQuartiles > 0 && byQuartiles < spread ? byQuartiles : spread;
 }
 
-function placeOfShare(counts: Float64Array, wanted: number): number {
+function placeOfFraction(counts: Float64Array, wanted: number): number {
   let sum = 0;
   for (let k = 0; k < counts.length; ++k) {
     if (sum + counts[k] >= wanted && counts[k] > 0) return k + (wanted - sum) / counts[k];
@@ -115,16 +115,16 @@ function placeOfShare(counts: Float64Array, wanted: number): number {
   return counts.length;
 }
 
-/** The densities above which the given shares of the events lie; an event has the density of its cell. */
-export function levelsEnclosing({ values, counts }: Density, shares: number[]): number[] {
+/** The densities above which the given fractions of the events lie; an event has the density of its cell. */
+export function levelsEnclosing({ values, counts }: Density, fractions: number[]): number[] {
   const filled = Uint32Array.from(counts.keys()).filter((cell) => counts[cell] > 0);
   filled.sort((a, b) => values[b] - values[a]);
   const total = counts.reduce((a, b) => a + b, 0);
-  return shares.map((share) => {
+  return fractions.map((fraction) => {
     let sum = 0;
     for (const cell of filled) {
       sum += counts[cell];
-      if (sum >= share * total) return values[cell];
+      if (sum >= fraction * total) return values[cell];
     }
     return 0;
   });

@@ -41,8 +41,8 @@ class Grid {
     const [a, b] = corners[side];
     const [c, d] = corners[(side + 1) % 4];
     const from = this.value(j + a, i + b);
-    const share = (this.level - from) / (this.value(j + c, i + d) - from);
-    return [j + a + share * (c - a), i + b + share * (d - b)];
+    const fraction = (this.level - from) / (this.value(j + c, i + d) - from);
+    return [j + a + fraction * (c - a), i + b + fraction * (d - b)];
   }
 }
 

@@ -19,7 +19,7 @@ export class PlotActions {
     readonly frame: Frame,
   ) {}
 
-  /** By shares of the frame, to the right and upwards. */
+  /** By fractions of the frame, to the right and upwards. */
   move(right: number, up: number): void {
     const { x, y } = this.plot;
     changePlot(this.plot.id, {

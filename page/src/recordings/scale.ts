@@ -16,8 +16,8 @@ export const backward = (kind: ScaleKind, place: number): number => (kind === 'l
 export function zoomed(span: Span, factor: number, fixed: number): Span {
   return { low: fixed + (span.low - fixed) / factor, high: fixed + (span.high - fixed) / factor };
 }
-export function moved(span: Span, share: number): Span {
-  const by = share * (span.high - span.low);
+export function moved(span: Span, fraction: number): Span {
+  const by = fraction * (span.high - span.low);
   return { low: span.low + by, high: span.high + by };
 }
 
@@ -76,7 +76,7 @@ export const counted = (count: number): string => String(Math.round(count)).repl
  */
 export function spanOf(sorted: Float64Array): Span {
   if (sorted.length === 0) return { low: 0, high: 1 };
-  const at = (share: number) => sorted[Math.round(share * (sorted.length - 1))];
+  const at = (fraction: number) => sorted[Math.round(fraction * (sorted.length - 1))];
   const low = at(sorted.length > 500 ? 0.001 : 0);
   const high = at(sorted.length > 500 ? 0.999 : 1);
   const room = 0.06 * (high - low) || Math.max(0.05 * Math.abs(high), 0.5);

@@ -105,11 +105,11 @@ class Ranks {
 }
 
 /** Quantiles, linear between two values. NaN of none. */
-export function quantiles(values: Float64Array, shares: number[]): number[] {
-  if (values.length === 0) return shares.map(() => NaN);
+export function quantiles(values: Float64Array, fractions: number[]): number[] {
+  if (values.length === 0) return fractions.map(() => NaN);
   const ranks = new Ranks(values);
-  return shares.map((share) => {
-    const place = share * (values.length - 1);
+  return fractions.map((fraction) => {
+    const place = fraction * (values.length - 1);
     const below = Math.floor(place);
     const [lower, upper] = ranks.pair(below);
     return lower + (place - below) * (upper - lower);

@@ -51,8 +51,8 @@ def settling_time(t, d):
     """The time in us after which the deformation stays within SETTLED of its end."""
     outside = np.flatnonzero(np.abs(d / d[-1] - 1) > SETTLED)
     k = outside[-1]
-    share = (np.abs(d[k] / d[-1] - 1) - SETTLED) / np.abs(d[k] - d[k + 1]) * d[-1]
-    return t[k] + share * (t[k + 1] - t[k])
+    fraction = (np.abs(d[k] / d[-1] - 1) - SETTLED) / np.abs(d[k] - d[k + 1]) * d[-1]
+    return t[k] + fraction * (t[k + 1] - t[k])
 
 
 def rows(solved):

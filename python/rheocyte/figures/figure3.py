@@ -7,7 +7,7 @@ from rheocyte.figures import lines, plane, style
 
 HIGHEST, CLOSE_UP = 0.1, 0.02
 OFF = 0.1  # relative difference of the deformation at which the model is called wrong
-CROWDED = 0.05  # no marks below this share of the height; the close-up shows them
+CROWDED = 0.05  # no marks below this fraction of the height; the close-up shows them
 FIGURE_2 = {"solid": (7.66, 3.44), "shell": (7.66, 31.3)}  # radius at rest in um and modulus of the cells in figure 2
 
 

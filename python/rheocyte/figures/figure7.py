@@ -164,7 +164,7 @@ def box(values):
 def row(name, one):
     """A line of the table."""
     return {"moduli": name.replace("\n", " "), "beads": one["count"],
-            **{f"quantile_{share:g}_kPa": f"{value:.4f}" for share, value in zip(QUANTILES, one["quantiles"])}}
+            **{f"quantile_{fraction:g}_kPa": f"{value:.4f}" for fraction, value in zip(QUANTILES, one["quantiles"])}}
 
 
 def draw(beads, lines, boxes):

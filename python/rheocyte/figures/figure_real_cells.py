@@ -14,7 +14,7 @@ ELONGATED, OF_THE_MODEL, DOUBTFUL = style.LINEAR, style.SECOND, style.ANALYTICAL
 COLOURS = {"elongated": ELONGATED, "model": OF_THE_MODEL, "doubtful": DOUBTFUL, "other-table": DOUBTFUL,
            "rounder": DOUBTFUL, "unknown": "#9aa3ab"}
 WANTED = ["recording", "shapes", "inertia_ratio_median", "inertia_ratio_expected", "shape_excess_median",
-          "shape_excess_median_error", "elongated_percent", "odd_share_median", "red_cells", "deformation_change",
+          "shape_excess_median_error", "elongated_percent", "odd_fraction_median", "red_cells", "deformation_change",
           "deformation_change_error", "young_modulus_median_kPa", "young_modulus_first_quartile_kPa",
           "young_modulus_third_quartile_kPa", "young_modulus_elongated_median_kPa",
           "young_modulus_elongated_first_quartile_kPa", "young_modulus_elongated_third_quartile_kPa",

@@ -27,9 +27,9 @@ TOP_IN, ROW_IN, HEAD_IN, FOOT_IN, SIDE_IN = 2.35, 1.62, 0.34, 0.3, 0.06
 
 def make(laboratory):
     """The figure and the rows of its table."""
-    cells = {f"{liquid}-{radius:g}um-{share:g}": (liquid, radius, share * modulus)
+    cells = {f"{liquid}-{radius:g}um-{fraction:g}": (liquid, radius, fraction * modulus)
              for liquid in LIQUIDS for radius, modulus in SIZES.items()
-             for share in (1.0, *(SOFTNESS if radius in SOFTER and liquid == "newtonian" else ()))}
+             for fraction in (1.0, *(SOFTNESS if radius in SOFTER and liquid == "newtonian" else ()))}
     cases = {f"{name}-{section}": case(section, *cell) for name, cell in cells.items() for section in ("square", "tube")}
     solved = laboratory.solve(cases)
     pairs = {name: Pair(*cell, solved[f"{name}-square"], solved[f"{name}-tube"]) for name, cell in cells.items()}

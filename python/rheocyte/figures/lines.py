@@ -119,9 +119,9 @@ def end_between(found, last, modulus):
     here, there = found[last], found[last + 1]
     if not here.modulus[-1] < modulus < there.modulus[-1]:
         return None
-    share = np.log(modulus / here.modulus[-1]) / np.log(there.modulus[-1] / here.modulus[-1])
-    measures = {name: (1 - share) * here.measures[name][-1] + share * there.measures[name][-1] for name in MEASURES}
-    return (1 - share) * here.radius_um + share * there.radius_um, measures
+    fraction = np.log(modulus / here.modulus[-1]) / np.log(there.modulus[-1] / here.modulus[-1])
+    measures = {name: (1 - fraction) * here.measures[name][-1] + fraction * there.measures[name][-1] for name in MEASURES}
+    return (1 - fraction) * here.radius_um + fraction * there.radius_um, measures
 
 
 def analytical(laboratory, kind):

@@ -57,7 +57,7 @@ def tell_moduli(axes, lines, name, colour):
         if len(area) == 0:
             continue
         if value[-1] > high - 0.01 * (high - low):
-            above.append([share_x(axes, area[-1]), f"{line.modulus:g}"])
+            above.append([fraction_x(axes, area[-1]), f"{line.modulus:g}"])
         elif area[-1] > paper.AREAS_UM2[1] - 2:
             right.append([(value[-1] - low) / (high - low), f"{line.modulus:g}"])
         else:
@@ -82,7 +82,7 @@ def inside(line, name, low, high):
     return area[:last], value[:last]
 
 
-def share_x(axes, area):
+def fraction_x(axes, area):
     """Place of an area in widths of the axes."""
     low, high = axes.get_xlim()
     return (area - low) / (high - low)

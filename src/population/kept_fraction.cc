@@ -1,4 +1,4 @@
-#include "population/kept_share.h"
+#include "population/kept_fraction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ double chance(const SampleGates& gates, const MapPoint& p) {
 
 }  // namespace
 
-KeptShare::KeptShare(const KeptClass& kept) {
+KeptFraction::KeptFraction(const KeptClass& kept) {
   const auto heights = kept.map->heights(), radii = kept.map->log_radii();
   for (const auto& [end, step] :
        {std::pair(std::min(last_fine_height, heights.upper), fine_height), std::pair(heights.upper, coarse_height)}) {
@@ -60,7 +60,7 @@ KeptShare::KeptShare(const KeptClass& kept) {
   }
 }
 
-std::vector<float> KeptShare::chances_at(const KeptClass& kept, double log_radius) const {
+std::vector<float> KeptFraction::chances_at(const KeptClass& kept, double log_radius) const {
   std::vector<float> chances(heights_.size());
   const auto tell = [&](std::size_t k) {
     chances[k] = float(chance(kept.gates, kept.map->at(log_radius, heights_[k])));
@@ -82,7 +82,7 @@ std::vector<float> KeptShare::chances_at(const KeptClass& kept, double log_radiu
   return chances;
 }
 
-KeptShare::RowSums KeptShare::sums_of(const Row& row, const CellDistribution& cells, double zu) const {
+KeptFraction::RowSums KeptFraction::sums_of(const Row& row, const CellDistribution& cells, double zu) const {
   const double se = cells.modulus_spread, conditional = se * std::sqrt(1 - cells.correlation * cells.correlation);
   const double middle = cells.mean_log_modulus + cells.correlation * se * zu - row.soft_end;
   const auto number_of = [&](double height) {
@@ -112,7 +112,7 @@ KeptShare::RowSums KeptShare::sums_of(const Row& row, const CellDistribution& ce
   return sums;
 }
 
-KeptShare::Answer KeptShare::answer(const CellDistribution& cells, bool with_score) const {
+KeptFraction::Answer KeptFraction::answer(const CellDistribution& cells, bool with_score) const {
   const double su = cells.radius_spread, se = cells.modulus_spread, rho = cells.correlation,
                across = std::sqrt(1 - rho * rho);
   double sum = 0, by_u = 0, by_e = 0, by_uu = 0, by_ee = 0, by_rho = 0;
@@ -131,8 +131,8 @@ KeptShare::Answer KeptShare::answer(const CellDistribution& cells, bool with_sco
     by_ee += rho / across * zu * first + second - all;
     by_rho += rho * all + zu * across * first - rho * second;
   }
-  const double share = sum / (2 * std::numbers::pi * su * se * across);
-  Answer answer{std::max(share, 1e-300), ParameterVector::Zero()};
+  const double fraction = sum / (2 * std::numbers::pi * su * se * across);
+  Answer answer{std::max(fraction, 1e-300), ParameterVector::Zero()};
   if (with_score && sum > 0) answer.score << by_u / su / sum, by_e / se / sum, by_uu / sum, by_ee / sum, by_rho / sum;
   return answer;
 }

@@ -1,5 +1,5 @@
-// The share of a population's cells whose measured values pass the gates, and its slopes (docs/theory-populations.md,
-// eq:kept).
+// The fraction of a population's cells whose measured values pass the gates, and its slopes
+// (docs/theory-populations.md, eq:kept).
 #pragma once
 #include <vector>
 
@@ -8,14 +8,14 @@
 
 namespace rheocyte {
 
-class KeptShare {
+class KeptFraction {
  public:
   /// Tabulates the chance of each cell to pass on a grid that resolves the gates' edges.
-  explicit KeptShare(const KeptClass& kept);
+  explicit KeptFraction(const KeptClass& kept);
 
   struct Answer {
-    double share;
-    ParameterVector score;  ///< of ln(share)
+    double fraction;
+    ParameterVector score;  ///< of ln(fraction)
   };
   Answer answer(const CellDistribution& cells, bool with_score) const;
 
