@@ -91,7 +91,7 @@ SampledBranch branch_of(const json& record) {
   if (samples > 1000000) throw DamagedRecord{"samples is out of range"};
   SampledBranch branch;
   branch.radius_um = record.at("radius_um");
-  branch.cortex_fraction = record.value("cortex_fraction", record.value("cortex_share", 0.0)) /* before 0.4 */;
+  branch.cortex_fraction = record.value("cortex_fraction", record.value("cortex_share", 0.0));  // of before 0.4
   branch.tension_ratio = record.value("tension_ratio", 0.0);
   branch.axial_ratio = record.value("axial_ratio", 0.0);
   branch.bending_kBT = record.at("bending_kBT");

@@ -71,6 +71,11 @@ TEST(ReadCase, AKeyOfTheFileWithoutEffectIsRefusedWhoeverSetTheRest) {
   EXPECT_NE(refusal(shortest, {"cell.bulk.c1_fraction=0.3"}).find("has no effect"), std::string::npos);
 }
 
+TEST(ReadCase, TheFormerNameOfAKeyIsRead) {
+  const std::vector<std::string> settings{"cell.bulk.law=mooney-rivlin", "cell.bulk.mooney_share=0.3"};
+  EXPECT_EQ(read(shortest, settings).cell.bulk.c1_fraction, 0.3);
+}
+
 TEST(ReadCase, TheEndsOfARangeBelongToIt) {
   EXPECT_EQ(refusal(shortest, {"numerics.accuracy=1e-7"}), "accepted");
   EXPECT_EQ(refusal(shortest, {"numerics.accuracy=0.1"}), "accepted");

@@ -124,6 +124,13 @@ TEST(TableSpec, BendingOfCombinedCellsGoesWithTheirStiffness) {
   EXPECT_NE(refusal(short_spec, both).find("exclude each other"), std::string::npos);
 }
 
+TEST(TableSpec, TheFormerNameOfAKeyMakesTheSameTable) {
+  const auto with = [](const std::string& key) {
+    return read(short_spec, {"cell.cortex.law=neo-hookean", key + "=[0, 0.5, 1]"});
+  };
+  EXPECT_EQ(spec_hash(with("table.cortex_share")), spec_hash(with("table.cortex_fraction")));
+}
+
 TEST(TableSpec, InASquareChannelBendingBeyondTheEndGoesWithStiffnessAndSize) {
   // c_b = 3e-5 E r0^3 in k_B T of 4.11643e-21 J: 2 kPa and 6 um have 1.296e-17 J, as 12 mN/m have for shells.
   const std::string ratio = "table.bending_beyond_ratio=3e-5", square = "channel.section=square",
