@@ -59,9 +59,10 @@ struct CubeFace {
 
 namespace {
 
-std::vector<CubeFace> cube_faces(Symmetry symmetry, int along, int across) {
+std::vector<CubeFace> cube_faces(Symmetry symmetry, const DuctSubdivision& n) {
   std::vector<CubeFace> faces;
-  const auto x = breaks(along, -1, 1);
+  const auto x = side_breaks(n);
+  const int across = n.across;
   if (across == 0) {
     for (const Image& image : wedges_of(symmetry)) {
       faces.emplace_back(Face::front, image, triangle());
@@ -82,13 +83,15 @@ std::vector<CubeFace> cube_faces(Symmetry symmetry, int along, int across) {
 
 std::vector<DuctElement> section_elements(Symmetry symmetry, int across) {
   std::vector<DuctElement> elements;
-  for (const CubeFace& face : cube_faces(symmetry, 1, across)) {
+  for (const CubeFace& face : cube_faces(symmetry, {.along = 1, .across = across})) {
     if (face.face != Face::front) continue;
     for (const Quadrilateral& corners : face.quadrilaterals)
       elements.push_back({Part::end, Face::front, face.image, corners, {0, 1}});
   }
   return elements;
 }
+
+std::vector<double> side_breaks(const DuctSubdivision& n) { return breaks(n.along, -1, 1, n.growth); }
 
 int duct_layers_for(const DuctGeometry& geometry, const DuctSubdivision& n) {
   constexpr double first_layer_height = 0.5;  // relative to the width of the surface's elements
@@ -112,8 +115,8 @@ DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivis
   const double near = (geometry.min_length() - geometry.box()) / (geometry.half_length() - geometry.box());
   auto ends = breaks(subdivision.axial, 0, std::min(1.0, near), 1.3);
   if (near < 1) ends.push_back(1);  // where nothing is disturbed
-  for (const CubeFace& face : cube_faces(symmetry, subdivision.along, subdivision.across)) {
-    if (face.face == Face::front) add(Part::core, face, breaks(subdivision.along, -1, 1));
+  for (const CubeFace& face : cube_faces(symmetry, subdivision)) {
+    if (face.face == Face::front) add(Part::core, face, side_breaks(subdivision));
     add(Part::ring, face, {0, 1});
     add(Part::layers, face, layers);
     if (face.face != Face::side) add(Part::end, face, ends);

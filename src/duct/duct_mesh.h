@@ -13,9 +13,13 @@ struct DuctSubdivision {
   int along = 3;   ///< elements along the side of the cell
   int layers = 0;  ///< of liquid from the surface to the box, each twice as high as the one below; 0: duct_layers_for()
   int axial = 2;   ///< elements from the box to each end
-  int across = 0;  ///< of the half: its faces across the flow are grids of across x across / 2; 0: triangles
+  double growth = 1;  ///< by which elements along the side are longer in front than in the rear, if they were many
+  int across = 0;     ///< of the half: its faces across the flow are grids of across x across / 2; 0: triangles
   bool operator==(const DuctSubdivision&) const = default;
 };
+
+/// Heights on the cube's side, from -1 in the rear to 1, between which its elements lie.
+std::vector<double> side_breaks(const DuctSubdivision&);
 
 /// As many layers as make the first one half as high as the surface's elements are wide (docs/theory.md, sec. mesh).
 int duct_layers_for(const DuctGeometry&, const DuctSubdivision&);

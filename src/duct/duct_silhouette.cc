@@ -94,7 +94,7 @@ class Envelope {
 
   Pieces pieces(const VectorXd& along) const {
     Pieces result;
-    const int sides = surface_.space().mesh().subdivision().along;
+    const std::vector<double> heights = side_breaks(surface_.space().mesh().subdivision());
     const auto add = [&](Face face, double from, double to) {
       auto& piece = result.emplace_back();
       for (const double u : along) piece.push_back(place(face, from + u * (to - from)));
@@ -103,7 +103,7 @@ class Envelope {
     };
     add(Face::front, 0, 0.5);
     add(Face::front, 0.5, 1);
-    for (int i = 0; i < sides; ++i) add(Face::side, 1 - 2.0 * i / sides, 1 - 2.0 * (i + 1) / sides);
+    for (auto i = heights.size() - 1; i > 0; --i) add(Face::side, heights[i], heights[i - 1]);
     add(Face::rear, 1, 0.5);
     add(Face::rear, 0.5, 0);
     return result;

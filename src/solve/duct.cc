@@ -97,14 +97,13 @@ void read_flow(const Problem& problem, const DuctDiscrete& discrete, const Vecto
   r.shear_rate_max = max_shear_rate(discrete.space(), discrete.system().element(), unknowns);
 }
 
-/// Of the side of a centred cell. The narrower the gap the more; a higher degree costs more than these
+/// Of a centred cell in a straight duct. The narrower the gap the more elements along its side; a higher degree costs
+/// more than these. The rear rim of a soft cell is sharp, and a higher degree makes it wavy
 /// (docs/theory-square.md, sec. "Discretisation").
-int elements_along(double radius_ratio) {
-  constexpr std::array<std::pair<double, int>, 4> up_to{{{0.55, 3}, {0.65, 4}, {0.88, 5}, {0.92, 6}}};
-  constexpr int in_narrowest = 8;
-  for (const auto& [ratio, elements] : up_to)
-    if (radius_ratio <= ratio) return elements;
-  return in_narrowest;
+DuctSubdivision subdivision_for(double radius_ratio) {
+  if (radius_ratio <= 0.65) return {.along = 4, .growth = 2};
+  if (radius_ratio <= 0.88) return {.along = 5, .growth = 1.5};
+  return {.along = radius_ratio <= 0.92 ? 6 : 8};
 }
 
 /// Numbers of a cell off the axis.
@@ -160,9 +159,11 @@ Symmetry symmetry_of(const Problem& problem) {
 }
 
 DuctSubdivision subdivision_of(const Problem& problem) {
-  const int axial = problem.wall.is_straight() ? DuctSubdivision{}.axial : 4;
-  if (problem.offset != 0) return {.along = 2, .axial = axial, .across = problem.wall.is_straight() ? 2 : 4};
-  return {.along = problem.wall.is_straight() ? elements_along(problem.radius_ratio) : 4, .axial = axial};
+  constexpr int axial_in_funnel = 4;
+  if (problem.wall.is_straight())
+    return problem.offset == 0 ? subdivision_for(problem.radius_ratio) : DuctSubdivision{.along = 2, .across = 2};
+  if (problem.offset == 0) return {.along = 4, .axial = axial_in_funnel};
+  return {.along = 2, .axial = axial_in_funnel, .across = 4};
 }
 
 DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
@@ -295,7 +296,7 @@ bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
 /// strongly shear-thinning liquids, whose viscosity is the least smooth where the cell no longer covers the axis.
 ///
 /// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error). Of a
-/// centred cell the error at degree 4 is below the greatest of 0.7 of the change from degree 3, of 6e-4, by which the
+/// centred cell the error at degree 4 is below the greatest of 0.4 of the change from degree 3, of 6e-4, by which the
 /// two may agree by chance, and, in shear-thinning liquids, of 0.08 of the change of the stability margin
 /// (docs/verification.md, "The stated error").
 Geometry duct_geometry(const Problem& problem) {

@@ -1,33 +1,48 @@
 #include "sweep/measured_state.h"
 
 #include <algorithm>
+#include <cassert>
+#include <vector>
 
 #include "shape/curve.h"
+#include "solve/duct.h"
 
 namespace rheocyte {
 namespace {
 
 constexpr int intervals_per_sector = 64;  // of front and rear, twice as many on top
 
-/// Points at parameters of the sectors front, top, rear that are the same on all meshes: the front has so many edges,
-/// the rear as many.
-Eigen::MatrixX2d resampled(const Contour& contour, int front) {
-  const int edges = int(contour.pieces.size()), top = edges - 2 * front;
+/// Points at places of the unstressed sphere that are the same on all meshes, by the places between which the pieces
+/// lie: the front from 0 to 1, the top to 3, the rear to 4.
+Eigen::MatrixX2d resampled(const Contour& contour, const std::vector<double>& ends) {
+  assert(ends.size() == contour.pieces.size() + 1);
   Eigen::MatrixX2d points(4 * intervals_per_sector + 1, 2);
   for (int i = 0; i < points.rows(); ++i) {
-    const double sectors = double(i) / intervals_per_sector;
-    const double along = front * std::min(sectors, 1.0) + top * std::clamp((sectors - 1) / 2, 0.0, 1.0) +
-                         front * std::max(sectors - 3, 0.0);
-    const int edge = std::min(int(along), edges - 1);
-    points.row(i) = evaluate(contour.pieces[edge], along - edge).transpose();
+    const double place = double(i) / intervals_per_sector;
+    const auto next = std::upper_bound(ends.begin() + 1, ends.end() - 1, place);
+    const auto piece = std::size_t(next - ends.begin()) - 1;
+    points.row(i) =
+        evaluate(contour.pieces[piece], (place - ends[piece]) / (ends[piece + 1] - ends[piece])).transpose();
   }
   return points;
 }
 
-/// A top of the tube's mesh has as many edges as front and rear together.
-int front_edges(const Contour& contour) { return int(contour.pieces.size()) / 4; }
+/// A top of the tube's mesh has as many edges as front and rear together, and all are alike.
+std::vector<double> ends_in_tube(const Contour& contour) {
+  const int count = int(contour.pieces.size());
+  std::vector<double> ends;
+  for (int i = 0; i <= count; ++i) ends.push_back(4.0 * i / count);
+  return ends;
+}
+
 /// Two quadrilaterals of the duct's mesh lie along the edge of a triangle.
-constexpr int front_edges_in_duct = 2;
+std::vector<double> ends_in_duct(const Problem& problem) {
+  std::vector<double> ends{0, 0.5};
+  const std::vector<double> heights = side_breaks(subdivision_of(problem));
+  std::transform(heights.rbegin(), heights.rend(), std::back_inserter(ends), [](double height) { return 2 - height; });
+  ends.insert(ends.end(), {3.5, 4});
+  return ends;
+}
 
 Eigen::VectorXd physical(const StateNumbers& numbers, const Scales& scales) {
   Eigen::VectorXd value(measure_count);
@@ -43,13 +58,13 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const SurfaceState surface =
       surface_state(space, unknowns, 4 * space.reference().degree() + 1, problem.bulk.rest_stretch);
   const StateNumbers numbers = numbers_of({problem, space, unknowns}, curve, surface);
-  return {physical(numbers, scales), scales.length_um() * resampled(curve, front_edges(curve))};
+  return {physical(numbers, scales), scales.length_um() * resampled(curve, ends_in_tube(curve))};
 }
 
-MeasuredState measure_state(const StationaryState& state, const Scales& scales) {
+MeasuredState measure_state(const StationaryState& state, const Problem& problem, const Scales& scales) {
   StateNumbers numbers = state;
   numbers.shape.volume = state.volume_of_revolution;
-  return {physical(numbers, scales), scales.length_um() * resampled(state.contour, front_edges_in_duct)};
+  return {physical(numbers, scales), scales.length_um() * resampled(state.contour, ends_in_duct(problem))};
 }
 
 }  // namespace rheocyte

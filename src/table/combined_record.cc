@@ -49,9 +49,8 @@ CombinedBranch branch_in(const json& record) {
 CombinedTable combined_in(const OpenedRecord& opened, const std::string& name) {
   CombinedTable table{parse_table_spec(opened.record.at("spec").get<std::string>(), name), {}};
   const json& branches = opened.record.at("branches");
-  check_record(
-      table.spec.is_combined() && branches.is_array() && !branches.empty() && branches.size() <= max_branches,
-      "it does not hold what its spec says");
+  check_record(table.spec.is_combined() && branches.is_array() && !branches.empty() && branches.size() <= max_branches,
+               "it does not hold what its spec says");
   for (const json& record : branches) {
     const CombinedBranch& branch = table.branches.emplace_back(branch_in(record));
     const std::string_view reason = why_no_branch(branch);

@@ -31,6 +31,7 @@ ElongatedSolids shipped_table() {
 /// A solid in the square channel.
 struct Solved {
   StationaryState state;
+  Problem problem;
   Scales scales;
   double mode(int k) const { return state.shape.modes[std::size_t(k - first_radius_mode)]; }
 };
@@ -41,7 +42,7 @@ Solved solved(double modulus_kPa, const std::string& elongated_by) {
                              "cell.bulk.young_modulus_kPa = {}\n{}",
                              viscosity_mPas, modulus_kPa, elongated_by),
                  "case");
-  Solved found{Session().solve(problem_of(c)), scales_of(c)};
+  Solved found{Session().solve(problem_of(c)), problem_of(c), scales_of(c)};
   EXPECT_EQ(found.state.outcome.status, Status::converged);
   return found;
 }
@@ -49,7 +50,7 @@ Solved solved(double modulus_kPa, const std::string& elongated_by) {
 /// Of its silhouette (um).
 Eigen::MatrixX2d outline_of(double modulus_kPa, const std::string& elongated_by) {
   const Solved cell = solved(modulus_kPa, elongated_by);
-  return mirrored(measure_state(cell.state, cell.scales).contour);
+  return mirrored(measure_state(cell.state, cell.problem, cell.scales).contour);
 }
 
 /// Median over random places on the camera.
@@ -126,7 +127,7 @@ TEST(ElongatedCells, WithACortexHaveTheShapeOfHL60CellsUnderOneTension) {
       "HL60");
   const StationaryState cell = Session().solve(problem_of(c));
   ASSERT_EQ(cell.outcome.status, Status::converged);
-  const MeasuredState seen = measure_state(cell, scales_of(c));
+  const MeasuredState seen = measure_state(cell, problem_of(c), scales_of(c));
   double chi_squared = std::pow(std::log(seen.value(int(Measure::area_um2)) / area_um2) / fraction_of_area, 2);
   for (std::size_t i = 0; i < measured.size(); ++i)
     chi_squared +=
