@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "duct/duct_ends.h"
@@ -27,18 +26,21 @@ std::vector<CoupledUnknowns> coupled_unknowns(const DuctSpace& space, const Duct
   for (std::size_t part = 0; part < filled.size(); ++part) {
     const int e = filled[part];
     nodes.push_back(space.nodes().of_element[e]);
-    std::set<int> unknowns(elements[e].rows.begin(), elements[e].rows.end());
+    std::vector<int>& unknowns = coupled[part].unknowns;
+    unknowns = elements[e].rows;
     for (const auto* slots : {&elements[e].displacement, &elements[e].velocity}) {
-      for (const Slot& slot : *slots) unknowns.insert(slot.unknown);
+      for (const Slot& slot : *slots) unknowns.push_back(slot.unknown);
     }
     const DuctElement& element = space.mesh().elements()[e];
-    if (space.turns() && (touches_cell(element) || element.in_cell())) unknowns.insert(space.spin());
+    if (space.turns() && (touches_cell(element) || element.in_cell())) unknowns.push_back(space.spin());
     for (const int patch : cortex.patches_of(e)) {
-      for (const int unknown : cortex.unknowns_of(patch).reshaped()) unknowns.insert(unknown);
-      for (const int unknown : cortex.equations_of(patch).reshaped()) unknowns.insert(unknown);
+      for (const Eigen::MatrixXi* of_patch : {&cortex.unknowns_of(patch), &cortex.equations_of(patch)})
+        unknowns.insert(unknowns.end(), of_patch->data(), of_patch->data() + of_patch->size());
     }
-    unknowns.erase(-1);
-    coupled[part].unknowns.assign(unknowns.begin(), unknowns.end());
+    std::ranges::sort(unknowns);
+    const auto [repeated, end] = std::ranges::unique(unknowns);
+    unknowns.erase(repeated, end);
+    std::erase(unknowns, -1);
     coupled[part].pressure = elements[e].pressure[0].unknown;
     coupled[part].medium = elements[e].liquid;
   }

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <tuple>
 
 namespace rheocyte {
 namespace {
@@ -62,31 +62,26 @@ class Joining {
 
   /// Joins the neighbours of the least rank again and again.
   std::vector<Region> join(const std::function<double(const Cost&)>& rank) const {
+    using Pair = std::tuple<double, int, int>;  // rank, and the regions in ascending order
     std::vector<Region> regions = start_;
-    const int n = int(elements_.size());
-    std::vector<std::vector<double>> ranks(2 * n, std::vector<double>(2 * n, forbidden));
-    const auto rank_with = [&](int a, int b) {
-      if (!are_neighbours(regions[a], regions[b])) return;
-      ranks[std::min(a, b)][std::max(a, b)] = rank(cost(regions[a], regions[b]));
-    };
-    for (int a = 0; a < n; ++a) {
-      for (int b = a + 1; b < n; ++b) rank_with(a, b);
-    }
-    std::vector<int> left(n);  // regions that are not joined yet
-    std::iota(left.begin(), left.end(), 0);
-    for (int joined = n; joined < 2 * n - 1; ++joined) {
-      int first = -1, second = -1;
-      double least = forbidden;
-      for (auto a = left.begin(); a != left.end(); ++a) {
-        for (auto b = a + 1; b != left.end(); ++b) {
-          if (ranks[*a][*b] < least) least = ranks[*a][*b], first = *a, second = *b;
-        }
+    std::vector<int> left;  // regions that are not joined yet
+    std::vector<Pair> neighbours;
+    const auto add = [&](int b) {
+      for (const int a : left) {
+        if (are_neighbours(regions[a], regions[b])) neighbours.emplace_back(rank(cost(regions[a], regions[b])), a, b);
       }
-      if (first < 0) return {};
+      left.push_back(b);
+    };
+    const int n = int(elements_.size());
+    for (int region = 0; region < n; ++region) add(region);
+    for (int joined = n; joined < 2 * n - 1; ++joined) {
+      if (neighbours.empty()) return {};
+      const auto [least, first, second] = *std::ranges::min_element(neighbours);
       regions.push_back(together(regions[first], regions[second], {first, second}));
-      std::erase_if(left, [&](int a) { return a == first || a == second; });
-      for (const int a : left) rank_with(a, joined);
-      left.push_back(joined);
+      const auto is_joined = [first, second](int a) { return a == first || a == second; };
+      std::erase_if(left, is_joined);
+      std::erase_if(neighbours, [&](const Pair& p) { return is_joined(std::get<1>(p)) || is_joined(std::get<2>(p)); });
+      add(joined);
     }
     return regions;
   }

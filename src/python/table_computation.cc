@@ -14,6 +14,7 @@
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "store/build_info.h"
+#include "sweep/sample_branch.h"
 #include "sweep/table_work.h"
 #include "table/finish_table.h"
 
@@ -97,8 +98,11 @@ py::bytes table_piece(const std::string& text, const std::string& name, const st
   const BranchTask task = task_of_piece(piece);
   const std::string hash = spec_hash(spec);
   return interruptible([&](const std::atomic<bool>& stop) {
-    const SampledBranch bare = task.held ? branch_from_bytes(bare_record, hash, "the bare branch") : SampledBranch();
-    return to_bytes(sample_task(spec, sweep_places(spec).at(std::size_t(task.place)), task.held, &bare, stop), hash);
+    const SweepPoint place = sweep_places(spec).at(std::size_t(task.place));
+    const auto held = [&] {
+      return sample_held_branch(spec, place, branch_from_bytes(bare_record, hash, "the bare branch"), &stop);
+    };
+    return to_bytes(task.held ? held() : sample_branch(spec, place, &stop), hash);
   });
 }
 

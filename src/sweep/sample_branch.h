@@ -1,5 +1,5 @@
-// Samples of the branch of one radius: followed from stiff to soft, each state within the wanted accuracy, as many as
-// the dense output between them needs (docs/theory.md, sec. "tables").
+// Samples of one branch of a table, each a state within the wanted accuracy, stiff to soft (docs/theory.md, sec.
+// "tables"; docs/tables.md, sec. "Square channels").
 #pragma once
 #include <atomic>
 
@@ -8,12 +8,14 @@
 
 namespace rheocyte {
 
-/// The case's own branch, from the least deformation to the greatest one or to the branch's end.
-SampledBranch sample_branch(const TableSpec&, const SweepPoint& place, const std::atomic<bool>* stop = nullptr);
+/// The case's own branch, from the least deformation to the greatest one or to the branch's end. Empty if it has no
+/// state.
+SampledBranch sample_branch(const TableSpec&, const SweepPoint&, const std::atomic<bool>* stop = nullptr);
 
-/// Goes on where `own` ended because its bare surface lost stability: the same cell with the bending stiffness of the
-/// spec, from a state before the end on, so that both overlap. Empty if there is nothing to go on from.
-SampledBranch sample_regularised_branch(const TableSpec&, const SampledBranch& own,
-                                        const std::atomic<bool>* stop = nullptr);
+/// The same cell with a surface that the bending stiffness of the spec holds. In the tube it goes on where `own` ended
+/// because its bare surface lost stability, from a state before the end on, so that both overlap; empty if there is
+/// nothing to go on from. In a square channel it is a whole branch of its own.
+SampledBranch sample_held_branch(const TableSpec&, const SweepPoint&, const SampledBranch& own,
+                                 const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

@@ -2,7 +2,6 @@
 
 #include "state/outcome.h"
 #include "sweep/sample_branch.h"
-#include "sweep/sample_square_branch.h"
 
 namespace rheocyte {
 
@@ -13,13 +12,6 @@ int piece_of(const BranchTask& task) { return 2 * task.place + int(task.held); }
 }  // namespace
 
 BranchTask task_of_piece(int piece) { return {piece / 2, piece % 2 == 1}; }
-
-SampledBranch sample_task(const TableSpec& spec, const SweepPoint& place, bool held, const SampledBranch* bare,
-                          const std::atomic<bool>& stop) {
-  if (spec.is_square())
-    return held ? sample_regularised_square_branch(spec, place, &stop) : sample_square_branch(spec, place, &stop);
-  return held ? sample_regularised_branch(spec, *bare, &stop) : sample_branch(spec, place, &stop);
-}
 
 std::vector<int> TableWork::missing() const {
   std::vector<int> pieces;
@@ -32,10 +24,11 @@ Claim TableWork::claim(int piece) const { return folder_.claim(task_of_piece(pie
 bool TableWork::has(int piece) const { return folder_.has(task_of_piece(piece).place, task_of_piece(piece).held); }
 
 void TableWork::compute(int piece, const std::atomic<bool>& stop) const {
-  const BranchTask task = task_of_piece(piece);
-  const SampledBranch bare = task.held ? folder_.branch(task.place, false) : SampledBranch();
-  const SampledBranch branch = sample_task(folder_.spec(), folder_.place(task.place), task.held, &bare, stop);
-  if (branch.end.status != Status::stopped) folder_.keep(task.place, branch, task.held);
+  const auto [place, is_held] = task_of_piece(piece);
+  const SampledBranch branch =
+      is_held ? sample_held_branch(folder_.spec(), folder_.place(place), folder_.branch(place, false), &stop)
+              : sample_branch(folder_.spec(), folder_.place(place), &stop);
+  if (branch.end.status != Status::stopped) folder_.keep(place, branch, is_held);
 }
 
 }  // namespace rheocyte

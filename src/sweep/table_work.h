@@ -8,10 +8,6 @@ namespace rheocyte {
 /// A piece is a branch of the bare or of the held surface: 2 x its place in the sweep, + 1 if held.
 BranchTask task_of_piece(int piece);
 
-/// Samples a branch of a table. That of a held surface goes on from the bare one (`bare`), save in a square channel.
-SampledBranch sample_task(const TableSpec&, const SweepPoint&, bool held, const SampledBranch* bare,
-                          const std::atomic<bool>& stop);
-
 class TableWork final : public SharedWork {
  public:
   /// The folder must outlive the work.

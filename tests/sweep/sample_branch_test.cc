@@ -105,7 +105,7 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
   const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
   const SampledBranch bare = sample_branch(table, {6});
   EXPECT_EQ(bare.end.status, Status::surface_unstable);
-  const SampledBranch held = sample_regularised_branch(table, bare);
+  const SampledBranch held = sample_held_branch(table, {6}, bare);
   ASSERT_FALSE(held.empty()) << held.end.message;
   EXPECT_EQ(held.bending_kBT, 1e4);
   EXPECT_GT(held.stiffness.front(), bare.stiffness.back());
@@ -118,7 +118,7 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
 TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
   // A branch that leaves the table's range, and a spec that asks for no bending.
   const TableSpec covered = spec(linear_solid, "max_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
-  EXPECT_TRUE(sample_regularised_branch(covered, sample_branch(covered, {6})).empty());
+  EXPECT_TRUE(sample_held_branch(covered, {6}, sample_branch(covered, {6})).empty());
 }
 
 TEST(SampleBranch, TheSameBranchHasTheSameBits) {

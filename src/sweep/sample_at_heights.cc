@@ -1,4 +1,4 @@
-#include "sweep/sample_square_branch.h"
+#include "sweep/sample_at_heights.h"
 
 #include <algorithm>
 #include <chrono>
@@ -38,7 +38,7 @@ SamplingWay way_of(const TableSpec& spec) {
 
 }  // namespace
 
-SampledBranch sample_square_branch(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop) {
+SampledBranch sample_at_heights(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop) {
   const auto start = std::chrono::steady_clock::now();
   // Any stiffness: that of the liquid's stress makes the first states of the branch stiffer by a factor of 10 to 100.
   const Scales scales = scales_of(case_at(spec, place, 1));
@@ -73,13 +73,6 @@ SampledBranch sample_square_branch(const TableSpec& spec, const SweepPoint& plac
   for (const double modulus : branch.stiffness) compliance.push_back(1 / modulus);
   set_slopes(branch, spec.is_elongated() ? compliance : roots_of_deformation(branch));
   branch.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return branch;
-}
-
-SampledBranch sample_regularised_square_branch(const TableSpec& spec, const SweepPoint& place,
-                                               const std::atomic<bool>* stop) {
-  SampledBranch branch = sample_square_branch(regularised_spec(spec), place, stop);
-  if (!branch.empty()) branch.bending_kBT = regularising_bending_kBT(spec, place.radius_um, branch.stiffness.back());
   return branch;
 }
 
