@@ -49,7 +49,8 @@ class BranchFollower {
     if (branch.states.empty()) return branch;
     const StationaryState& softest = branch.states.back();
     if (branch.end == Status::converged && softest.shape.deformation < fraction_covered * wanted_.max_deformation)
-      branch.end = is_at_limit(softest.stability_margin) ? Status::surface_unstable : Status::accuracy_not_reached;
+      branch.end = is_at_limit(softest.stability_margin) || is_unstable_beyond_ ? Status::surface_unstable
+                                                                                : Status::accuracy_not_reached;
     return branch;
   }
 
@@ -133,6 +134,7 @@ class BranchFollower {
     Ladder ladder{branch_.geometry().errors};
     StationaryState result;
     if (state.status == Status::converged) result.outcome.status = branch_.climb(state, ladder);
+    is_unstable_beyond_ = is_unstable_beyond_ || result.outcome.status == Status::surface_unstable;
     if (!has_state(result.outcome.status)) return {};
     result.statistics = branch_.take_statistics();
     const Problem here = branch_.problem_at(guess.compliance);
@@ -166,6 +168,7 @@ class BranchFollower {
   ResolvedState first_;
   std::vector<Milestone> way_;
   double last_deformation_ = 0;
+  bool is_unstable_beyond_ = false;  ///< at higher degrees, where the first one has a state
 };
 
 }  // namespace
