@@ -41,7 +41,8 @@ void Ladder::add(ResolvedState state, const StateNumbers& of_state) {
   estimated_error = std::max(estimated_error, rule.fraction_of_outline * change_of_outline(before, last) / size);
   if (numbers.size() > 2) return;
   const double by_inertia = std::abs(last.shape.inertia_ratio - before.shape.inertia_ratio),
-               by_margin = std::abs(last.stability_margin - before.stability_margin);
+               by_margin =
+                   std::abs(last.stability_margin - before.stability_margin) * std::pow(1 - last.stability_margin, 2);
   if (rule.fraction_of_inertia > 0)
     estimated_error = std::max(estimated_error, rule.fraction_of_inertia * by_inertia / size);
   if (rule.fraction_of_margin > 0) estimated_error = std::max(estimated_error, rule.fraction_of_margin * by_margin);

@@ -26,10 +26,11 @@ struct ErrorRule {
   double fraction_of_change_before = 0.5;  ///< of the change before the last one
   double fraction_of_first_change = 2;     ///< where there is no change before
   double min_of_two = 2e-5;                ///< no first change is trusted below this: neighbours may agree by chance
-  double fraction_of_inertia =
-      0;                          ///< nor below this fraction of the change of the inertia ratio: two seldom do at once
-  double fraction_of_margin = 0;  ///< nor below this fraction of the change of the stability margin: where the surface
-                                  ///< nears its limit deformations agree long before they are right
+  /// Nor below this fraction of the change of the inertia ratio: two seldom do at once.
+  double fraction_of_inertia = 0;
+  /// Nor below this fraction of (1 - m)^2 times the change of the stability margin m: where the surface nears its limit
+  /// deformations agree long before they are right.
+  double fraction_of_margin = 0;
   double fraction_of_outline = 0;  ///< nor, in any change, below this fraction of the root mean square change of the
                                    ///< outline's modes
 };

@@ -265,6 +265,7 @@ Status ResolvedBranch::carry(const Problem& from, const Ladder& former, Ladder& 
   const double growth = problem_.radius_ratio / from.radius_ratio;
   VectorXd before;  // of the last rung, on the mesh of this problem
   for (const ResolvedState& rung : former.rungs) {
+    if (rung.discrete->resolution().degree < geometry_.rungs.front().first_degree) continue;  // of a rougher problem
     Discrete& discrete = *rung.discrete;
     VectorXd kept = rung.branch.unknowns;
     if (!has_same_mesh(from, problem_)) {
