@@ -66,15 +66,15 @@ class TablePieces {
       Claim claim = work_.claim(piece);
       if (!claim || work_.has(piece)) continue;
       ours_.emplace(piece, std::move(claim));
-      taken.emplace_back(piece,
-                         task.held ? py::bytes(to_bytes(folder_.branch(task.place, false), hash())) : py::bytes());
+      taken.emplace_back(
+          piece, task.regularised ? py::bytes(to_bytes(folder_.branch(task.place, false), hash())) : py::bytes());
     }
     return taken;
   }
 
   void keep(int piece, const std::string& record) {
     const BranchTask task = task_of_piece(piece);
-    folder_.keep(task.place, branch_from_bytes(record, hash(), "the record of an executor"), task.held);
+    folder_.keep(task.place, branch_from_bytes(record, hash(), "the record of an executor"), task.regularised);
     ours_.erase(piece);
   }
 
@@ -99,10 +99,10 @@ py::bytes table_piece(const std::string& text, const std::string& name, const st
   const std::string hash = spec_hash(spec);
   return interruptible([&](const std::atomic<bool>& stop) {
     const SweepPoint place = sweep_places(spec).at(std::size_t(task.place));
-    const auto held = [&] {
-      return sample_held_branch(spec, place, branch_from_bytes(bare_record, hash, "the bare branch"), &stop);
+    const auto regularised = [&] {
+      return sample_regularised_branch(spec, place, branch_from_bytes(bare_record, hash, "the bare branch"), &stop);
     };
-    return to_bytes(task.held ? held() : sample_branch(spec, place, &stop), hash);
+    return to_bytes(task.regularised ? regularised() : sample_branch(spec, place, &stop), hash);
   });
 }
 

@@ -19,14 +19,14 @@ SampledBranch sample_branch(const TableSpec& spec, const SweepPoint& place, cons
   return spec.is_square() ? sample_at_heights(spec, place, stop) : follow_branch(spec, place, std::nullopt, stop);
 }
 
-SampledBranch sample_held_branch(const TableSpec& spec, const SweepPoint& place, const SampledBranch& own,
-                                 const std::atomic<bool>* stop) {
+SampledBranch sample_regularised_branch(const TableSpec& spec, const SweepPoint& place, const SampledBranch& own,
+                                        const std::atomic<bool>* stop) {
   if (!spec.is_square() && !can_be_regularised(spec, own)) return {};
-  const TableSpec held = regularised_spec(spec);
+  const TableSpec regularised = regularised_spec(spec);
   SampledBranch branch =
       spec.is_square()
-          ? sample_at_heights(held, place, stop)
-          : follow_branch(held, place, std::min(overlap * own.stiffness.back(), own.stiffness.front()), stop);
+          ? sample_at_heights(regularised, place, stop)
+          : follow_branch(regularised, place, std::min(overlap * own.stiffness.back(), own.stiffness.front()), stop);
   if (!branch.empty()) branch.bending_kBT = regularising_bending_kBT(spec, place.radius_um, branch.stiffness.back());
   return branch;
 }

@@ -15,7 +15,7 @@ SampledBranch sample_branch(const TableSpec&, const SweepPoint&, const std::atom
 /// The same cell with a surface that the bending stiffness of the spec holds. In the tube it goes on where `own` ended
 /// because its bare surface lost stability, from a state before the end on, so that both overlap; empty if there is
 /// nothing to go on from. In a square channel it is a whole branch of its own.
-SampledBranch sample_held_branch(const TableSpec&, const SweepPoint&, const SampledBranch& own,
-                                 const std::atomic<bool>* stop = nullptr);
+SampledBranch sample_regularised_branch(const TableSpec&, const SweepPoint&, const SampledBranch& own,
+                                        const std::atomic<bool>* stop = nullptr);
 
 }  // namespace rheocyte

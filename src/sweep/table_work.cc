@@ -7,7 +7,7 @@ namespace rheocyte {
 
 namespace {
 
-int piece_of(const BranchTask& task) { return 2 * task.place + int(task.held); }
+int piece_of(const BranchTask& task) { return 2 * task.place + int(task.regularised); }
 
 }  // namespace
 
@@ -21,14 +21,16 @@ std::vector<int> TableWork::missing() const {
 
 Claim TableWork::claim(int piece) const { return folder_.claim(task_of_piece(piece).place); }
 
-bool TableWork::has(int piece) const { return folder_.has(task_of_piece(piece).place, task_of_piece(piece).held); }
+bool TableWork::has(int piece) const {
+  return folder_.has(task_of_piece(piece).place, task_of_piece(piece).regularised);
+}
 
 void TableWork::compute(int piece, const std::atomic<bool>& stop) const {
-  const auto [place, is_held] = task_of_piece(piece);
-  const SampledBranch branch =
-      is_held ? sample_held_branch(folder_.spec(), folder_.place(place), folder_.branch(place, false), &stop)
-              : sample_branch(folder_.spec(), folder_.place(place), &stop);
-  if (branch.end.status != Status::stopped) folder_.keep(place, branch, is_held);
+  const auto [place, is_regularised] = task_of_piece(piece);
+  const SampledBranch branch = is_regularised ? sample_regularised_branch(folder_.spec(), folder_.place(place),
+                                                                          folder_.branch(place, false), &stop)
+                                              : sample_branch(folder_.spec(), folder_.place(place), &stop);
+  if (branch.end.status != Status::stopped) folder_.keep(place, branch, is_regularised);
 }
 
 }  // namespace rheocyte

@@ -191,14 +191,15 @@ class PatchMaker {
 };
 
 // Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.
-void add_step_to_error(const GridPatch& bare, GridPatch& held) {
-  for (int c = 0; c < held.columns; ++c) {
-    const int under = held.first_column + c - bare.first_column;
+void add_step_to_error(const GridPatch& bare, GridPatch& regularised) {
+  for (int c = 0; c < regularised.columns; ++c) {
+    const int under = regularised.first_column + c - bare.first_column;
     if (under < 0 || under >= bare.columns) continue;
     const double below = bare.log_stiffness[static_cast<std::size_t>((under + 1) * bare.rows - 1)];
-    const auto column = static_cast<std::size_t>(c * held.rows);
-    const double step = std::abs(held.log_stiffness[column] - below);
-    for (std::size_t row = 0; row < static_cast<std::size_t>(held.rows); ++row) held.error[column + row] += step;
+    const auto column = static_cast<std::size_t>(c * regularised.rows);
+    const double step = std::abs(regularised.log_stiffness[column] - below);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(regularised.rows); ++row)
+      regularised.error[column + row] += step;
   }
 }
 
@@ -226,10 +227,10 @@ void trim_to(GridContent& grid, const GridPatch& bare) {
 
 std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<const SampledBranch> branches,
                                                std::string_view version, const GridResolution& resolution) {
-  std::vector<LogBranch> own, held;
+  std::vector<LogBranch> own, regularised;
   for (const auto& radius : by_radius(branches)) {
     if (radius.bare() && radius.bare()->samples() > 1) own.emplace_back(*radius.bare());
-    if (radius.regularised() && radius.regularised()->samples() > 1) held.emplace_back(*radius.regularised());
+    if (radius.regularised() && radius.regularised()->samples() > 1) regularised.emplace_back(*radius.regularised());
   }
   if (own.size() < 2) return {};
   const double first = std::log(spec.min_area_um2), last = std::log(spec.max_area_um2);
@@ -239,9 +240,9 @@ std::optional<GridContent> make_stiffness_grid(const TableSpec& spec, std::span<
   const auto bare = PatchMaker(own, columns).patch(least, border, resolution.rows, 0, columns.count);
   if (!bare) return {};
   GridContent grid{origin_of(spec, version), columns.first, columns.step, columns.count, {*bare}};
-  if (spec.wants_regularised() && held.size() > 1) {
-    auto above = PatchMaker(held, columns)
-                     .patch(border.height, upper_border(held, spec, columns), resolution.regularised_rows,
+  if (spec.wants_regularised() && regularised.size() > 1) {
+    auto above = PatchMaker(regularised, columns)
+                     .patch(border.height, upper_border(regularised, spec, columns), resolution.regularised_rows,
                             bare->first_column, bare->first_column + bare->columns);
     if (above) {
       above->regularised = true;

@@ -229,11 +229,12 @@ std::string regularisation_csv(const LookupTable& table) {
   std::string text = fmt::format("radius_um,{},area_um2,bending_kBT,deformation,deformation_held,relative_change\n",
                                  stiffness_column(table.spec));
   for (const auto& radius : table.radii) {
-    const SampledBranch *bare = radius.bare(), *held = radius.regularised();
-    for (int i = 0; bare && held && i < held->samples(); ++i) {
-      const double stiffness = held->stiffness[std::size_t(i)];
+    const SampledBranch *bare = radius.bare(), *regularised = radius.regularised();
+    for (int i = 0; bare && regularised && i < regularised->samples(); ++i) {
+      const double stiffness = regularised->stiffness[std::size_t(i)];
       if (stiffness > bare->stiffness.front() || stiffness < bare->stiffness.back()) continue;
-      const double d = interpolate(*bare, Measure::deformation, stiffness), with = held->at(i, Measure::deformation);
+      const double d = interpolate(*bare, Measure::deformation, stiffness),
+                   with = regularised->at(i, Measure::deformation);
       text += fmt::format("{},{},{},{},{},{},{:.3g}\n", radius.radius_um(), stiffness,
                           interpolate(*bare, Measure::area_um2, stiffness),
                           regularising_bending_kBT(table.spec, radius.radius_um(), stiffness), d, with, with / d - 1);

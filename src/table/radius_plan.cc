@@ -39,14 +39,14 @@ RadiusPlan::Branch RadiusPlan::branch(const BranchTask& task) const {
 bool RadiusPlan::update() {
   if (complete_) return true;
   missing_.clear();
-  const bool own = settle(false), held = !spec_.wants_regularised() || settle(true);
-  return complete_ = own && held;
+  const bool own = settle(false), regularised = !spec_.wants_regularised() || settle(true);
+  return complete_ = own && regularised;
 }
 
-bool RadiusPlan::settle(bool held) {
+bool RadiusPlan::settle(bool regularised) {
   Nodes nodes;
-  for (auto places = places_at_first(); !places.empty(); places = next_places(nodes, held))
-    if (!find(places, held, nodes)) return false;
+  for (auto places = places_at_first(); !places.empty(); places = next_places(nodes, regularised))
+    if (!find(places, regularised, nodes)) return false;
   return true;
 }
 
@@ -70,11 +70,11 @@ std::optional<bool> RadiusPlan::wants_regularised(int place) const {
   return false;
 }
 
-bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {
+bool RadiusPlan::find(const std::vector<int>& places, bool regularised, Nodes& nodes) {
   bool has_all = true;
   for (const int place : places) {
-    const BranchTask task{place, held};
-    const std::optional<bool> wanted = held ? wants_regularised(place) : true;
+    const BranchTask task{place, regularised};
+    const std::optional<bool> wanted = regularised ? wants_regularised(place) : true;
     Branch found = branch(task);
     if (!found && wanted == false) found = std::make_shared<SampledBranch>();
     if (!found) found = records_(task);
@@ -86,7 +86,7 @@ bool RadiusPlan::find(const std::vector<int>& places, bool held, Nodes& nodes) {
   return has_all;
 }
 
-std::vector<int> RadiusPlan::next_places(const Nodes& nodes, bool held) {
+std::vector<int> RadiusPlan::next_places(const Nodes& nodes, bool regularised) {
   std::vector<int> places;
   std::map<BranchTask, Branch> between;
   const BranchLine line(spec_, nodes);
@@ -98,7 +98,7 @@ std::vector<int> RadiusPlan::next_places(const Nodes& nodes, bool held) {
       continue;
     }
     for (int place = first; place <= last; ++place) {
-      const BranchTask task{place, held};
+      const BranchTask task{place, regularised};
       Branch branch = records_(task);
       if (!branch) branch = line.between(gap, places_[static_cast<std::size_t>(place)].radius_um);
       if (branch)

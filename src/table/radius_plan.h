@@ -14,7 +14,7 @@ namespace rheocyte {
 /// A branch of a table: its place, and whether it is the one that bending holds beyond the end of the bare surface.
 struct BranchTask {
   int place = 0;
-  bool held = false;
+  bool regularised = false;
   auto operator<=>(const BranchTask&) const = default;
 };
 
@@ -43,14 +43,14 @@ class RadiusPlan {
   /// Computed branches of one kind, by place.
   using Nodes = std::map<int, Branch>;
   /// Round by round; true if no branch of this kind is unknown any more.
-  bool settle(bool held);
+  bool settle(bool regularised);
   std::vector<int> places_at_first() const;
   /// Whether the held branch of a place is wanted; nothing while that is not known.
   std::optional<bool> wants_regularised(int place) const;
   /// Adds the branches of some places to the nodes; false if some are missing.
-  bool find(const std::vector<int>& places, bool held, Nodes& nodes);
+  bool find(const std::vector<int>& places, bool regularised, Nodes& nodes);
   /// The places that are computed next; none once the branches between the nodes are known.
-  std::vector<int> next_places(const Nodes& nodes, bool held);
+  std::vector<int> next_places(const Nodes& nodes, bool regularised);
 
   TableSpec spec_;
   std::vector<SweepPoint> places_;

@@ -40,8 +40,8 @@ TableFolder::TableFolder(const fs::path& folder, const TableSpec& spec)
       places_(sweep_places(spec)),
       folder_(folder, wanted()),
       plan_(spec, [this](const BranchTask& task) -> RadiusPlan::Branch {
-        if (!has(task.place, task.held)) return nullptr;
-        return std::make_shared<SampledBranch>(read(task.place, task.held));
+        if (!has(task.place, task.regularised)) return nullptr;
+        return std::make_shared<SampledBranch>(read(task.place, task.regularised));
       }) {}
 
 WantedWork TableFolder::wanted() const {
@@ -66,9 +66,9 @@ void TableFolder::take_over() const {
   std::string first;
   int unusable = 0;
   for (int i = 0; i < branches(); ++i)
-    for (const bool held : {false, true}) {
+    for (const bool regularised : {false, true}) {
       try {
-        if (has(i, held)) read(i, held);
+        if (has(i, regularised)) read(i, regularised);
       } catch (const UserError& error) {
         if (unusable++ == 0) first = error.what();
       }
@@ -78,14 +78,14 @@ void TableFolder::take_over() const {
   folder_.take_over();
 }
 
-std::string TableFolder::record(int i, bool held) const {
-  return fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, held ? "-held" : "");
+std::string TableFolder::record(int i, bool regularised) const {
+  return fmt::format("{}-{:04}{}.cbor", spec_.is_combined() ? "branch" : "radius", i, regularised ? "-held" : "");
 }
 
-bool TableFolder::has(int i, bool held) const { return folder_.has(record(i, held)); }
+bool TableFolder::has(int i, bool regularised) const { return folder_.has(record(i, regularised)); }
 
 bool TableFolder::update_plan() const {
-  const auto is_there = [this](const BranchTask& task) { return has(task.place, task.held); };
+  const auto is_there = [this](const BranchTask& task) { return has(task.place, task.regularised); };
   const auto& missing = plan_.missing();
   return missing.empty() || std::ranges::any_of(missing, is_there) ? plan_.update() : false;
 }
@@ -105,36 +105,36 @@ std::vector<BranchTask> TableFolder::missing() const {
   return plan_.missing();
 }
 
-void TableFolder::keep(int i, const SampledBranch& branch, bool held) const {
-  folder_.keep(record(i, held), to_bytes(branch, hash_));
+void TableFolder::keep(int i, const SampledBranch& branch, bool regularised) const {
+  folder_.keep(record(i, regularised), to_bytes(branch, hash_));
 }
 
 Claim TableFolder::claim(int i) const { return folder_.claim(fmt::format("branch-{:04}", i)); }
 
-SampledBranch TableFolder::read(int i, bool held) const {
-  const fs::path file = folder_.record(record(i, held));
-  SampledBranch branch = branch_from_bytes(folder_.content(record(i, held)), hash_, file.string());
+SampledBranch TableFolder::read(int i, bool regularised) const {
+  const fs::path file = folder_.record(record(i, regularised));
+  SampledBranch branch = branch_from_bytes(folder_.content(record(i, regularised)), hash_, file.string());
   if (!branch.empty() && !is_cell_of(place(i), branch))
     refuse_path(file, "this record holds another cell of the sweep; delete it, and it is computed again.");
   return branch;
 }
 
-SampledBranch TableFolder::branch(int i, bool held) const {
+SampledBranch TableFolder::branch(int i, bool regularised) const {
   const std::lock_guard lock(plan_mutex_);
-  const auto branch = plan_.branch({i, held});
+  const auto branch = plan_.branch({i, regularised});
   assert(branch);
   return *branch;
 }
 
 std::vector<SampledBranch> TableFolder::read_all() const {
   if (const auto lacking = missing(); !lacking.empty())
-    return read(lacking.front().place, lacking.front().held), std::vector<SampledBranch>();
+    return read(lacking.front().place, lacking.front().regularised), std::vector<SampledBranch>();
   std::vector<SampledBranch> all;
   for (int i = 0; i < branches(); ++i) {
     all.push_back(branch(i, false));
     if (!spec_.wants_regularised()) continue;
-    SampledBranch held = branch(i, true);
-    if (!held.empty() || has(i, true)) all.push_back(std::move(held));
+    SampledBranch regularised = branch(i, true);
+    if (!regularised.empty() || has(i, true)) all.push_back(std::move(regularised));
   }
   return all;
 }

@@ -40,12 +40,12 @@ class TableFolder {
   /// As WorkFolder::claim.
   Claim claim(int i) const;
   /// Writes the record whole or not at all.
-  void keep(int i, const SampledBranch&, bool held) const;
-  bool has(int i, bool held) const;
+  void keep(int i, const SampledBranch&, bool regularised) const;
+  bool has(int i, bool regularised) const;
   /// UserError naming the file if it is damaged or holds another cell than that of the place.
-  SampledBranch read(int i, bool held) const;
+  SampledBranch read(int i, bool regularised) const;
   /// Computed or interpolated; only once that is known (asserted).
-  SampledBranch branch(int i, bool held) const;
+  SampledBranch branch(int i, bool regularised) const;
   /// All branches of a complete table, in the order of the places; held ones where they are wanted. UserError naming
   /// the file if a record is damaged or missing.
   std::vector<SampledBranch> read_all() const;
@@ -61,7 +61,7 @@ class TableFolder {
   void publish(const std::string& name, std::string_view content) const { folder_.publish(name, content); }
 
  private:
-  std::string record(int i, bool held) const;
+  std::string record(int i, bool regularised) const;
   std::string layout() const;
   WantedWork wanted() const;
   bool update_plan() const;

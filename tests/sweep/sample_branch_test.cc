@@ -105,20 +105,20 @@ TEST(SampleBranch, BeyondTheBareSurfaceBendingGoesOn) {
   const TableSpec table = spec("[cell.bulk]\nlaw = \"neo-hookean\"\n", "bending_beyond_kBT = 1e4\n");
   const SampledBranch bare = sample_branch(table, {6});
   EXPECT_EQ(bare.end.status, Status::surface_unstable);
-  const SampledBranch held = sample_held_branch(table, {6}, bare);
-  ASSERT_FALSE(held.empty()) << held.end.message;
-  EXPECT_EQ(held.bending_kBT, 1e4);
-  EXPECT_GT(held.stiffness.front(), bare.stiffness.back());
-  EXPECT_LT(held.stiffness.back(), bare.stiffness.back());
-  EXPECT_GT(held.at(held.samples() - 1, Measure::deformation), 0.1);
-  const double d = interpolate(bare, Measure::deformation, held.stiffness.front());
-  EXPECT_NEAR(held.at(0, Measure::deformation) / d, 1, 0.01);  // docs/verification.md, sec. 6
+  const SampledBranch regularised = sample_regularised_branch(table, {6}, bare);
+  ASSERT_FALSE(regularised.empty()) << regularised.end.message;
+  EXPECT_EQ(regularised.bending_kBT, 1e4);
+  EXPECT_GT(regularised.stiffness.front(), bare.stiffness.back());
+  EXPECT_LT(regularised.stiffness.back(), bare.stiffness.back());
+  EXPECT_GT(regularised.at(regularised.samples() - 1, Measure::deformation), 0.1);
+  const double d = interpolate(bare, Measure::deformation, regularised.stiffness.front());
+  EXPECT_NEAR(regularised.at(0, Measure::deformation) / d, 1, 0.01);  // docs/verification.md, sec. 6
 }
 
 TEST(SampleBranch, NothingIsHeldWhereNothingIsUnstable) {
   // A branch that leaves the table's range, and a spec that asks for no bending.
   const TableSpec covered = spec(linear_solid, "max_deformation = 0.01\nbending_beyond_kBT = 1e4\n");
-  EXPECT_TRUE(sample_held_branch(covered, {6}, sample_branch(covered, {6})).empty());
+  EXPECT_TRUE(sample_regularised_branch(covered, {6}, sample_branch(covered, {6})).empty());
 }
 
 TEST(SampleBranch, TheSameBranchHasTheSameBits) {

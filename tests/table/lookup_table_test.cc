@@ -101,13 +101,13 @@ TEST(LookupTable, TheEffectOfBendingIsListedWhereBothBranchesExist) {
   for (; std::getline(csv, line); ++lines) {
     std::ranges::replace(line, ',', ' ');
     std::istringstream numbers(line);
-    double radius = 0, stiffness = 0, area = 0, bending = 0, bare = 0, held = 0, change = 0;
-    numbers >> radius >> stiffness >> area >> bending >> bare >> held >> change;
+    double radius = 0, stiffness = 0, area = 0, bending = 0, bare = 0, regularised = 0, change = 0;
+    numbers >> radius >> stiffness >> area >> bending >> bare >> regularised >> change;
     EXPECT_TRUE(numbers) << line;
     EXPECT_EQ(bending, 1e4);
     // The invented branches are equal, up to the interpolation of the bare one.
-    EXPECT_NEAR(held / bare, 1, 1e-3);
-    EXPECT_NEAR(change, held / bare - 1, 1e-5);
+    EXPECT_NEAR(regularised / bare, 1, 1e-3);
+    EXPECT_NEAR(change, regularised / bare - 1, 1e-5);
   }
   EXPECT_GE(lines, std::ranges::count(branches, 1e4, &SampledBranch::bending_kBT));
 }

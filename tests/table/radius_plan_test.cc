@@ -96,13 +96,13 @@ TEST(RadiusPlan, WhereTheKindOfEndChangesTheNeighboursAreComputed) {
   computed.complete(plan);
   const auto is_unstable = [&](int i) { return plan.branch({i, false})->end.status == Status::surface_unstable; };
   for (int i = 0; i < 100; ++i) {
-    const auto own = plan.branch({i, false}), held = plan.branch({i, true});
-    ASSERT_TRUE(own && held);
+    const auto own = plan.branch({i, false}), regularised = plan.branch({i, true});
+    ASSERT_TRUE(own && regularised);
     EXPECT_EQ(own->end.status, computed.at({i, false}).end.status) << i;
-    EXPECT_EQ(held->empty(), !is_unstable(i)) << i;
+    EXPECT_EQ(regularised->empty(), !is_unstable(i)) << i;
     if (!is_unstable(i)) continue;
     EXPECT_NEAR(own->at(own->samples() - 1, Measure::deformation), invented_end(own->radius_um), 1e-4);
-    EXPECT_EQ(held->bending_kBT, 1e4);
+    EXPECT_EQ(regularised->bending_kBT, 1e4);
     if (i + 1 == 100 || is_unstable(i + 1)) continue;
     EXPECT_TRUE(computed.done().contains({i, false}) && computed.done().contains({i + 1, false})) << i;
   }
@@ -130,8 +130,9 @@ TEST(RadiusPlan, TheOrderInWhichBranchesAreFinishedDoesNotMatter) {
   other.complete(second, true);
   EXPECT_EQ(one.done(), other.done());
   for (int i = 0; i < 100; ++i)
-    for (const bool held : {false, true})
-      EXPECT_EQ(to_bytes(*first.branch({i, held}), "x"), to_bytes(*second.branch({i, held}), "x")) << i << held;
+    for (const bool regularised : {false, true})
+      EXPECT_EQ(to_bytes(*first.branch({i, regularised}), "x"), to_bytes(*second.branch({i, regularised}), "x"))
+          << i << regularised;
 }
 
 TEST(RadiusPlan, InASquareChannelAllBranchesAreHeldOrNone) {
@@ -145,8 +146,8 @@ TEST(RadiusPlan, InASquareChannelAllBranchesAreHeldOrNone) {
     RadiusPlan plan(spec, [&](const BranchTask& task) -> RadiusPlan::Branch {
       InventedSweep sweep = covering(spec, radii[std::size_t(task.place)]);
       sweep.end = is_one_unstable && task.place == 2 ? Status::surface_unstable : Status::covered;
-      sweep.bending = task.held ? 1e4 : 0;
-      asked += task.held;
+      sweep.bending = task.regularised ? 1e4 : 0;
+      asked += task.regularised;
       return std::make_shared<SampledBranch>(invented_branch(radii[std::size_t(task.place)], sweep));
     });
     EXPECT_TRUE(plan.update());
@@ -161,7 +162,7 @@ TEST(RadiusPlan, InASquareChannelOneUnstableBranchTellsThatAllAreHeldBeforeTheOt
       std::vector<std::string>{"channel.section=square", "table.max_area_um2=260", "table.bending_beyond_ratio=3e-5"});
   const auto radii = computed_radii_um(spec);
   RadiusPlan plan(spec, [&](const BranchTask& task) -> RadiusPlan::Branch {
-    if (task.held || task.place == 3) return nullptr;
+    if (task.regularised || task.place == 3) return nullptr;
     InventedSweep sweep = covering(spec, radii[std::size_t(task.place)]);
     sweep.end = task.place == 2 ? Status::surface_unstable : Status::covered;
     return std::make_shared<SampledBranch>(invented_branch(radii[std::size_t(task.place)], sweep));

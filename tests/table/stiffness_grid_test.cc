@@ -83,11 +83,11 @@ TEST(StiffnessGrid, EndsAtTheInstabilityOrGoesOnWithBending) {
   const auto with = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"}), without = spec_of_fifty_radii({});
   const auto branches = invented_unstable_branches(with);
   const StiffnessGrid bare(make_stiffness_grid(without, branches, "test").value()),
-      held(make_stiffness_grid(with, branches, "test").value());
+      regularised(make_stiffness_grid(with, branches, "test").value());
   const TableInterpolation between(without, branches);
   int unstable = 0, lost = 0;
   for (const auto& [area, d] : random_queries(with, 3000)) {
-    const auto one = bare.answer(area, d), other = held.answer(area, d);
+    const auto one = bare.answer(area, d), other = regularised.answer(area, d);
     const auto exact = between.by_area(area, d);
     if (one.reason == OutOfTable::none) {
       // Lines of the grid bend with the border, a little more than the branches resolve.
@@ -117,16 +117,16 @@ TEST(StiffnessGrid, JaggedEndsMakeNoWrongNumbers) {
     return (radius < 5 ? 0.08 : radius < 6.4 ? 0.12 : invented_end(radius) + 0.05) * (1 + 0.1 * (k % 3 == 0));
   };
   const StiffnessGrid grid(make_stiffness_grid(spec, invented_unstable_branches(spec, jagged), "test").value());
-  int held = 0;
+  int regularised = 0;
   for (const auto& [area, d] : random_queries(spec, 20000)) {
     const auto answer = grid.answer(area, d);
     if (answer.reason != OutOfTable::none) continue;
-    held += answer.regularised;
+    regularised += answer.regularised;
     const double off = std::abs(std::exp(answer.log_stiffness) / invented_modulus(area, d) - 1);
     EXPECT_LT(off, 0.02) << area << " " << d << " " << answer.regularised;
     EXPECT_LT(off, 3 * answer.error + 1e-4) << area << " " << d << " " << answer.regularised;
   }
-  EXPECT_GT(held, 100);
+  EXPECT_GT(regularised, 100);
 }
 
 TEST(StiffnessGrid, BranchesThatBendingHoldsCoverNoAreasButThoseOfTheBareOnes) {
