@@ -86,6 +86,7 @@ def population(
     by: str | None = None,
     paired: bool = False,
     between_recordings: float | None = None,
+    shared_spread: bool = False,
     table: _Path | None = None,
     no_bins: bool = False,
     jobs: float | None = None,

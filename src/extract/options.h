@@ -69,6 +69,7 @@ struct PopulationOptions {
   std::string by;                  ///< asymmetry, odd-deformation, deformation; empty: asymmetry
   bool paired = false;             ///< the recordings of each condition are of the same sessions, in order
   std::optional<double> between_recordings;  ///< known standard deviation of ln E
+  bool shared_spread = false;                ///< of solids: the cells of all recordings of a condition scatter alike
   bool no_bins = false;
   std::optional<double> jobs;  ///< threads
 };

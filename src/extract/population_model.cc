@@ -10,7 +10,12 @@
 namespace rheocyte {
 
 std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options) {
-  if (options.model == "cortex") return std::make_unique<CombinedPopulations>(options);
+  if (options.model == "cortex") {
+    if (options.shared_spread)
+      throw UserError(
+          "rheocyte: --shared-spread is for solids; cells with a cortex have their spreads recording by recording.");
+    return std::make_unique<CombinedPopulations>(options);
+  }
   if (options.model.empty() || options.model == "solid") {
     if (options.section)
       throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");

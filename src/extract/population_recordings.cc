@@ -11,6 +11,7 @@
 #include "case/refuse_path.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "extract/shared_spreads.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -295,13 +296,16 @@ PopulationReport PopulationAnalysis::report() const {
   report.recordings = recordings_;
   report.systematic_errors = model_->systematic_errors(recordings_);
   report.warnings = differences_within(recordings_, conditions_);
+  if (options_.shared_spread)
+    for (auto& remark : share_spreads(conditions_, report.level, report.recordings))
+      report.warnings.push_back(std::move(remark));
   for (std::size_t c = 0; c < conditions_.size(); ++c)
-    report.conditions.push_back(condition_report(recordings_, c, conditions_[c].name, report.level));
+    report.conditions.push_back(condition_report(report.recordings, c, conditions_[c].name, report.level));
   const ComparisonSettings settings{report.level, options_.between_recordings};
   for (std::size_t c = 1; c < conditions_.size(); ++c)
-    for (const PopulationQuantity quantity : quantities_told(recordings_)) {
-      const auto control = means_of(estimates_of(recordings_, 0, quantity)),
-                 treated = means_of(estimates_of(recordings_, c, quantity));
+    for (const PopulationQuantity quantity : report.quantities()) {
+      const auto control = means_of(estimates_of(report.recordings, 0, quantity)),
+                 treated = means_of(estimates_of(report.recordings, c, quantity));
       if (control.empty() || treated.empty()) continue;
       const auto difference = options_.paired ? paired_difference(control, treated, settings)
                                               : unpaired_difference(control, treated, settings);

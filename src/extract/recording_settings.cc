@@ -191,6 +191,8 @@ Settings settings_of(PopulationOptions& o) {
        setting("paired", "Paired", &o.paired,
                "the first recordings of all conditions are of one session, the second ones of another"),
        std::move(between),
+       setting("shared_spread", "Shared spread", &o.shared_spread,
+               "of solids: one spread of radius and modulus for all recordings of a condition"),
        of_type("TABLE", {},
                setting("table", "Table", &o.table,
                        "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "

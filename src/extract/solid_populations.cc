@@ -44,6 +44,15 @@ void tell_bounds(RecordingReport& r) {
 
 }  // namespace
 
+void tell_quantities(RecordingReport& r) {
+  constexpr int e = number_of(PopulationParameter::mean_log_modulus);
+  const CellDistribution& cells = r.fitted.cells;
+  r.quantities = {
+      {PopulationQuantity::young_modulus, {cells.mean_log_modulus, r.fitted.covariance(e, e)}, cells.modulus_spread}};
+  r.log_radius = cells.mean_log_radius;
+  r.radius_spread = cells.radius_spread;
+}
+
 SolidPopulations::SolidPopulations(const PopulationOptions& options)
     : maps_(stiffness_measure_of(options), options.table),
       no_bins_(options.no_bins),
@@ -71,12 +80,7 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   tell_bounds(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
   if (r.failure.empty()) {
-    constexpr int e = number_of(PopulationParameter::mean_log_modulus);
-    const CellDistribution& cells = r.fitted.cells;
-    r.quantities = {
-        {PopulationQuantity::young_modulus, {cells.mean_log_modulus, r.fitted.covariance(e, e)}, cells.modulus_spread}};
-    r.log_radius = cells.mean_log_radius;
-    r.radius_spread = cells.radius_spread;
+    tell_quantities(r);
     r.images = single_images(made.sample, r.fitted.cells, r.fitted.event_error);
     r.checks = check_population(events, made, r.fitted, maps_);
   }

@@ -7,6 +7,9 @@
 
 namespace rheocyte {
 
+/// What is told of the fitted cells of a recording.
+void tell_quantities(RecordingReport& r);
+
 class SolidPopulations : public PopulationModel {
  public:
   /// UserError if tables are missing.

@@ -57,7 +57,7 @@ bool CombinedMoments::render(const CombinedVector& parameters, std::size_t pictu
 std::vector<ShapeVector> CombinedMoments::drawn(const CombinedVector& parameters, std::size_t events) const {
   const MatrixXd white = whitening(pixels_.middle.covariance);
   if (white.size() == 0) return {};
-  const MatrixXd root = solve_dense(white, MatrixXd::Identity(feature_count, feature_count));
+  const MatrixXd root = dense_inverse(white);
   const CombinedLaw law = CombinedLaw::of(parameters);
   const Progress of_mean = progress(law);
   std::vector<ShapeVector> all;

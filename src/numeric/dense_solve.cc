@@ -8,6 +8,10 @@ namespace rheocyte {
 
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b) { return A.partialPivLu().solve(b); }
 
+Eigen::MatrixXd dense_inverse(const Eigen::MatrixXd& A) {
+  return solve_dense(A, Eigen::MatrixXd::Identity(A.rows(), A.cols()));
+}
+
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
   if (cholesky.info() != Eigen::Success) return {};

@@ -7,6 +7,9 @@ namespace rheocyte {
 /// The solution of A x = b, column by column; not finite if A is singular.
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
+/// A^-1; not finite if A is singular.
+Eigen::MatrixXd dense_inverse(const Eigen::MatrixXd& A);
+
 /// L^-1 of the covariance L L^T of some numbers, which turns them into independent ones of variance 1; empty if the
 /// covariance is not positive definite.
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance);

@@ -217,7 +217,7 @@ class CellFit {
       interval = {no_value, no_value};
       if (fitted.at_bound[std::size_t(k)]) continue;
       const double error = std::sqrt(fitted.covariance(k, k)), middle = fitted.cells.parameters()(k);
-      interval = {middle - z * error, middle + z * error};
+      interval = normal_interval(middle, error, settings_.level);
       if (!wants_profile(k, fitted)) continue;
       interval = {profile_end(maximum, k, -error, z), profile_end(maximum, k, error, z), true};
     }
@@ -276,6 +276,11 @@ class CellFit {
 double FittedCells::standard_error(PopulationParameter parameter) const {
   const int k = number_of(parameter);
   return at_bound[std::size_t(k)] ? no_value : std::sqrt(covariance(k, k));
+}
+
+ParameterInterval normal_interval(double value, double standard_error, double level) {
+  const double half = boost::math::quantile(boost::math::normal(), (1 + level) / 2) * standard_error;
+  return {value - half, value + half};
 }
 
 FittedCells fit_cells(const Sample& sample, const FitSettings& settings) {

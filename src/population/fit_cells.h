@@ -31,6 +31,8 @@ struct ParameterInterval {
   bool is_profile = false;  ///< of the likelihood; else from the curvature at its maximum
 };
 
+ParameterInterval normal_interval(double value, double standard_error, double level);
+
 struct FittedCells {
   FitState state = FitState::not_found;
   CellLaw law;                                           ///< as the mean goes with the elongation

@@ -64,8 +64,6 @@ std::vector<bool> strangers(const MatrixXd& events) {
   return found;
 }
 
-MatrixXd inverse_of(const MatrixXd& A) { return solve_dense(A, MatrixXd::Identity(A.rows(), A.cols())); }
-
 /// What the search for some of the parameters sees: slopes of the logarithm of the likelihood of one event, and its
 /// information.
 struct Direction {
@@ -83,7 +81,7 @@ class MomentSearch {
     found_.measured = moments_of(events, found_.is_stranger);
     found_.parameters = start.cwiseMax(settings.least).cwiseMin(settings.greatest);
     found_.at_bound.assign(std::size_t(start.size()), false);
-    weight_ = inverse_of(found_.measured.covariance + double(found_.events) * settings.common_covariance);
+    weight_ = dense_inverse(found_.measured.covariance + double(found_.events) * settings.common_covariance);
   }
 
   /// Both parts in turn, until Newton's method for all equations together takes over. Moments have kinks where the
@@ -133,7 +131,7 @@ class MomentSearch {
     const auto n = Eigen::Index(parameters.size());
     Direction found{VectorXd(n), MatrixXd(n, n)};
     const VectorXd off = weight_ * (found_.measured.mean - s.there.mean);
-    const MatrixXd precision = part == Part::means ? weight_ : inverse_of(s.there.covariance);
+    const MatrixXd precision = part == Part::means ? weight_ : dense_inverse(s.there.covariance);
     const MatrixXd scatter = precision * (found_.measured.covariance - s.there.covariance) * precision;
     for (Eigen::Index a = 0; a < n; ++a) {
       const Moments& by = s.by_parameter[std::size_t(parameters[std::size_t(a)])];
@@ -158,7 +156,7 @@ class MomentSearch {
       const std::vector<int> free = free_of(part, slopes);
       if (free.empty()) return true;
       const Direction d = direction(part, slopes, free);
-      const VectorXd error = (inverse_of(d.information).diagonal() / double(found_.events)).cwiseSqrt();
+      const VectorXd error = (dense_inverse(d.information).diagonal() / double(found_.events)).cwiseSqrt();
       const VectorXd step = solve_dense(d.information, d.score);
       if (!((step.array() / error.array()).abs().maxCoeff() > moment_tolerance / 2)) return step.allFinite();
       while (!try_step(part, free, d, damping, loss)) {
@@ -240,7 +238,7 @@ class MomentSearch {
   /// Of the end, in standard errors of the parameters as far as one event's information tells them.
   double distance(const Equations& e) const {
     const VectorXd step = solve_dense(e.matrix, e.value);
-    const VectorXd error = (inverse_of(e.matrix).diagonal().cwiseAbs() / double(found_.events)).cwiseSqrt();
+    const VectorXd error = (dense_inverse(e.matrix).diagonal().cwiseAbs() / double(found_.events)).cwiseSqrt();
     return (step.array() / error.array()).abs().maxCoeff();
   }
 
@@ -262,7 +260,7 @@ class MomentSearch {
   /// The scores of single events: those of the means are linear in what was measured, those of the scatter quadratic.
   MatrixXd products_of_scores(const Equations& e, const MatrixXd& linear) const {
     const auto m = Eigen::Index(e.means.size()), n = Eigen::Index(e.free.size());
-    const MatrixXd precision = inverse_of(e.slopes.there.covariance);
+    const MatrixXd precision = dense_inverse(e.slopes.there.covariance);
     std::vector<MatrixXd> quadratic;
     for (Eigen::Index a = m; a < n; ++a) quadratic.emplace_back(precision * slope(e, a).covariance * precision / 2);
     MatrixXd products = MatrixXd::Zero(n, n);
@@ -289,7 +287,7 @@ class MomentSearch {
     const auto m = Eigen::Index(e.means.size()), n = Eigen::Index(e.free.size());
     MatrixXd by_shift = MatrixXd::Zero(n, found_.measured.mean.size());
     for (Eigen::Index a = 0; a < m; ++a) by_shift.row(a) = slope(e, a).mean.transpose() * weight_;
-    const MatrixXd bread = inverse_of(e.matrix);
+    const MatrixXd bread = dense_inverse(e.matrix);
     const auto all = found_.parameters.size();
     found_.covariance = MatrixXd::Zero(all, all);
     found_.covariance(e.free, e.free) =

@@ -84,6 +84,27 @@ TEST_F(PopulationCommand, ModuliOfSingleImagesScatterByCellsAndNoiseTogether) {
   EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png"));
 }
 
+TEST_F(PopulationCommand, RecordingsOfAConditionMayShareTheirSpread) {
+  synth("a.rtdc", {"recording.cells=80"});
+  synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
+  const auto spreads = [&](const std::string& folder, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"population", "--condition", "x=a.rtdc,b.rtdc", "-o",
+                                   folder,       "--quiet",     "--no-picture"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(call(words).exit_code, 0);
+    const auto recordings = record(folder)["recordings"];
+    return std::pair<double, double>{recordings[0]["population"]["spread_of_ln_modulus"],
+                                     recordings[1]["population"]["spread_of_ln_modulus"]};
+  };
+  const auto own = spreads("own", {}), shared = spreads("shared", {"--shared-spread"});
+  EXPECT_NE(own.first, own.second);
+  EXPECT_EQ(shared.first, shared.second);
+  EXPECT_GT(shared.first, std::min(own.first, own.second));
+  EXPECT_LT(shared.first, std::max(own.first, own.second));
+  expect_sentence(call({"population", "--condition", "x=a.rtdc,b.rtdc", "--model", "cortex", "--shared-spread"}),
+                  "--shared-spread is for solids");
+}
+
 TEST_F(PopulationCommand, ASpecificationGivesWhatItsOptionsGive) {
   synth("a.rtdc", {"recording.cells=80"});
   synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
