@@ -19,12 +19,14 @@ enter_release() {
   [[ ! -r /etc/ssl/certs/ca-certificates.crt ]] || cp /etc/ssl/certs/ca-certificates.crt "$1$certificates"
 }
 
-# install_release <release> <root>
+# install_release <release> <root> [<option of debootstrap>...]
 install_release() {
   ((EUID == 0)) || fail "${0##*/} changes the root folder, which needs root."
   command -v debootstrap >/dev/null || fail 'debootstrap is missing (Debian package debootstrap).'
+  local script=/usr/share/debootstrap/scripts/$1
+  [[ -e $script ]] || script=/usr/share/debootstrap/scripts/sid # a release that is newer than debootstrap
   mkdir -p "$2"
-  debootstrap --variant=minbase "$1" "$2" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" >"$2.log" 2>&1 ||
+  debootstrap --variant=minbase "${@:3}" "$1" "$2" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" "$script" >"$2.log" 2>&1 ||
     fail "debootstrap failed; $2.log says why."
   rm "$2.log"
 }

@@ -130,6 +130,8 @@ test('A breakdown is told in a sentence, and the program goes on with the same f
     await notice(page, 'Reading b.rtdc broke the program down');
     const after = await ask(page, '/api/items');
     assert.deepEqual(JSON.parse(after.text).map(({ name, state }) => [name, state]), [['a.rtdc', 'ready'], ['b.rtdc', 'failed']]);
+    await ask(page, '/api/items/0/gone').catch(() => undefined);
+    await notice(page, 'a.rtdc has been changed, moved or removed since it was given: give it again.');
   }));
 
 test('Of many files that are given at once the one that breaks the program down is left out, and the others are opened', { skip }, () =>

@@ -1,11 +1,11 @@
 // build/rheocyte.html (tools/page) and files: given, damaged, odd, exported, and opened by others.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { copyFile, readFile, writeFile } from 'node:fs/promises';
+import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import test from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { settled } from './cell_page.mjs';
+import { settled, shownDeformation, until } from './cell_page.mjs';
 import { oddRecordings } from './odd_recordings.mjs';
 import { synthesise } from './prepared.mjs';
 import { computeModuli, drawn } from './recordings_page.mjs';
@@ -112,6 +112,33 @@ test('Of fifty odd recordings each is read or told in a sentence, and the page g
     for (const { item, state } of items) if (state === 'ready') await computed(page, item); // what breaks down is left out
     assert.equal((await computed(page, 50)).state, 'ready');
     assert.ok(await page.locator('.recording', { hasText: 'last of all' }).isVisible());
+  }));
+
+/** As a person drops them: with the browser's own events, which know folders. */
+async function drop(page, ...files) {
+  const session = await page.context().newCDPSession(page);
+  const data = { items: [], files, dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, x: 600, y: 400, data });
+}
+const told = (page, text) => page.locator('.notice', { hasText: text }).waitFor();
+
+test('A case that is dropped is shown; what is none, and a folder, is told in a sentence', { skip }, () =>
+  inPage(async (page) => {
+    const path = (name) => join(scratch.folder, name);
+    await mkdir(path('many'));
+    await writeFile(path('note.txt'), 'a note\n');
+    await writeFile(path('odd.toml'), 'x = [\n');
+    const text = await readFile(fileURLToPath(new URL('../../examples/small-linear-cell.toml', import.meta.url)), 'utf8');
+    await writeFile(path('a case.toml'), text.replaceAll('\n', '\r\n'));
+    const before = await shownDeformation(page);
+    await drop(page, path('many'), path('note.txt'), path('odd.toml'));
+    await told(page, 'many is a folder: open it, and drop the files that are in it.');
+    await told(page, /^note\.txt:1: /);
+    await told(page, /^odd\.toml:1: not valid TOML/);
+    assert.equal(await shownDeformation(page), before);
+    await drop(page, path('a case.toml'));
+    await until(async () => (await shownDeformation(page)) !== before);
+    assert.notEqual(await shownDeformation(page), before);
   }));
 
 test('Closed while it computes, and opened again, the page begins anew and takes the same files', { skip }, () =>

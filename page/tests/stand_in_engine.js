@@ -63,6 +63,7 @@ function rheocyteEngine(module) {
   const request = (method, target, body) => {
     const path = target.split('?')[0];
     if (path === '/api/items/1/odd') throw new Error('HDF5 broke');
+    if (path === '/api/items/0/gone') throw new DOMException('', 'NotReadableError');
     return (answers[path] ?? (() => answer('{"error": "There is no such address.", "reason": "unknown"}', 404)))(method, body, target);
   };
   const calls = { rheocyte_request: request, rheocyte_open: open, rheocyte_count: () => listed.length, rheocyte_start: () => '', rheocyte_entry: () => 0 };

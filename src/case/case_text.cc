@@ -122,7 +122,7 @@ void check_case_text(std::string_view text, const std::string& name, const TextK
     refuse(fmt::format("{}:{}", name, line_of(text, position)), what);
   };
   const auto refuse_byte = [&](std::size_t position, std::string_view byte) {
-    refuse_at(position, fmt::format("{}; a {} is a text file in TOML.", byte, kind.noun));
+    refuse_at(position, fmt::format("{}; a {} is a text file in TOML, saved as UTF-8.", byte, kind.noun));
   };
   if (const auto zero = text.find('\0'); zero != std::string::npos) refuse_byte(zero, "a zero byte");
   if (const auto bad = first_bad_byte(text); bad != std::string_view::npos)

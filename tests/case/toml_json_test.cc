@@ -70,8 +70,10 @@ TEST(TomlJson, OutsideOfQuotesTheyAreASentence) {
 
 TEST(TomlJson, ASpecificationIsNoCase) {
   EXPECT_EQ(refusal(" \n"), "spec.toml: the specification is empty; `rheocyte help population` lists its keys.");
-  EXPECT_EQ(refusal(std::string("a = \0", 5)), "spec.toml:1: a zero byte; a specification is a text file in TOML.");
-  EXPECT_EQ(refusal("a = '\xFF'"), "spec.toml:1: a byte that is not UTF-8; a specification is a text file in TOML.");
+  EXPECT_EQ(refusal(std::string("a = \0", 5)),
+            "spec.toml:1: a zero byte; a specification is a text file in TOML, saved as UTF-8.");
+  EXPECT_EQ(refusal("a = '\xFF'"),
+            "spec.toml:1: a byte that is not UTF-8; a specification is a text file in TOML, saved as UTF-8.");
   EXPECT_NE(refusal("a = " + std::string(99, '[')).find("a specification needs three."), std::string::npos);
 }
 

@@ -22,6 +22,8 @@ NATIVE = Path(os.environ.get("RHEOCYTE_PROGRAM", TOP / "build" / "rheocyte"))
 OF_THE_RUN = {"wall_time_s", "statistics", "compiler", "residual", "version", "date", "computed_s", "program", "threads"}
 # Of differences of numbers of the order of one, such as errors: below it they are rounding.
 ROUNDING = 1e-12
+# A call takes half a minute at most, but other tests may run at the same time.
+PATIENCE_S = 600
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -62,7 +64,7 @@ class Wine:
 
     def call(self, *words, cwd=None, **environment):
         return subprocess.run(self.arguments(*words), cwd=cwd or self.folder, env={**self.environment, **environment},
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=120, check=False)
+                              stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE_S, check=False)
 
     def start(self, *words, cwd):
         return subprocess.Popen(self.arguments(*words), cwd=cwd, env=self.environment, stdin=subprocess.DEVNULL,
@@ -90,7 +92,7 @@ class Native:
 
     def call(self, *words, cwd):
         return subprocess.run([str(NATIVE), *map(str, words)], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True,
-                              timeout=120, check=False)
+                              timeout=PATIENCE_S, check=False)
 
     def start(self, *words, cwd):
         return subprocess.Popen([str(NATIVE), *map(str, words)], cwd=cwd, stdin=subprocess.DEVNULL,

@@ -52,4 +52,5 @@ export type FromWorker =
   | { kind: 'opens'; id: number; place: number }
   /** The number of the item that it has become, if it is one; why it cannot be opened, or nothing. */
   | { kind: 'opened'; id: number; place: number; item: number | null; sentence: string }
-  | { kind: 'broken'; reason: string };
+  /** `hasChanged`: a file is no longer what it was when it was given. */
+  | { kind: 'broken'; reason: string; hasChanged: boolean };

@@ -29,6 +29,8 @@ const lost = 'Stopped; moduli that were computed before must be computed again.'
 /** So long may a file be read without a sign of life; a damaged one may keep HDF5 busy for ever. */
 const silence_ms = 60_000;
 const hasBroken = (name: string) => `Reading ${name} broke the program down; it was started again without that file.`;
+const hasChanged = (name: string) =>
+  `${name} has been changed, moved or removed since it was given: give it again. The program was started again without it.`;
 const isSilent = (name: string) =>
   `Nothing could be read of ${name} for ${silence_ms / 1000} s; the program was started again without that file.`;
 const json = { 'Content-Type': 'application/json' };
@@ -175,7 +177,7 @@ export class ProgramInPage implements Program {
       this.isReady = true;
       return this.next();
     }
-    if (message.kind === 'broken') return this.restart(message.reason);
+    if (message.kind === 'broken') return this.restart(message.reason, message.hasChanged ? hasChanged : hasBroken);
     const job = this.running;
     if (!job || job.id !== message.id) return;
     if (message.kind === 'head') this.takeHead(job, message.status, message.headers);

@@ -242,6 +242,7 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
     else if (data.kind === 'leave') isLeft ||= data.id === id;
     else open(data);
   } catch (failure) {
-    tell({ kind: 'broken', reason: String(failure instanceof Error ? failure.message : failure) });
+    const hasChanged = failure instanceof DOMException && /^Not(Found|Readable)Error$/.test(failure.name);
+    tell({ kind: 'broken', reason: String(failure instanceof Error ? failure.message : failure), hasChanged });
   }
 };

@@ -7,7 +7,7 @@ import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
 import { countWithin } from './analysis';
 import { columnsVersion } from './columns';
-import { focus, gates, items, recordings, rename, titleOf } from './model';
+import { failureOf, focus, gates, items, recordings, rename, titleOf } from './model';
 import { moduli } from './moduli';
 import { counted } from './scale';
 import { countedStates, states, wantStates } from './states';
@@ -95,7 +95,7 @@ function Recording({ item }: { item: Item }) {
         {titleOf(item)}
       </button>
       {item.state === 'loading' && <p class="soft">is being opened</p>}
-      {item.state === 'failed' && <p class="alarm">{item.error}</p>}
+      {item.state === 'failed' && <p class="alarm">{failureOf(item)}</p>}
       {ready && (
         <>
           <p class="soft">{conditionsOf(item)}</p>

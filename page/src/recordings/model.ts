@@ -87,6 +87,9 @@ export const itemOf = (number: number | null): Item | undefined => items.get()?.
 /** What a recording is called in a list: the name of its file. */
 export const titleOf = (item: Item): string => item.name.split('/').pop() ?? item.name;
 
+/** Why it cannot be read. In the page without a server files lie in folders that nobody knows. */
+export const failureOf = ({ name, error }: Item): string => error?.replace(/^\/recordings\/\d+\//, '') ?? `${name} cannot be read.`;
+
 function replaceItem(found: Item): void {
   items.update((all) => (all ?? []).map((item) => (item.item === found.item ? { ...item, ...found } : item)));
 }
