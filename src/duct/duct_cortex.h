@@ -13,8 +13,8 @@ class DuctCortex {
   /// Where it bends, faces that meet in an edge know each other. The space must outlive this object.
   DuctCortex(const DuctSpace&, bool bends);
 
-  /// Patches that a layer's element has a fraction in: the face that it has in common with the cell, and where it
-  /// bends, some of its edges.
+  /// Patches that a layer's element has a part in: the face that it has in common with the cell, and where it bends,
+  /// some of its edges.
   const std::vector<int>& patches_of(int element) const { return patches_of_element_[element]; }
   /// x, y, z of the patch's nodes: unknowns that move them, and those to whose equations their tests belong; -1: none.
   const Eigen::MatrixXi& unknowns_of(int patch) const { return patches_[patch].unknowns; }

@@ -44,7 +44,7 @@ class DuctSystem : public AssembledSystem<float> {
   void finish(const VectorXd& unknowns, VectorXd& total) const override { turning_.add_residual(unknowns, total); }
   /// What the spin does in an element of the cell whose residual is known.
   void add_spin(Hexahedron, const At&, const VectorXd& residual, PartWorkspace<float>&) const;
-  /// Of the patches of the surface that an element has a fraction in.
+  /// Of the patches of the surface that an element has a part in.
   void add_cortex(int element, const At&, PartResidual&, PartWorkspace<float>&) const;
 
   const DuctSpace& space_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "extract/solid_populations.h"
 #include "population/shared_spread.h"
@@ -43,10 +44,9 @@ std::vector<std::string> share_spreads(const std::vector<PopulationCondition>& c
     const SpreadsApart apart = share_spread(laws);
     for (std::size_t j = 0; j < sharing.size(); ++j) take(laws[j], level, *sharing[j]);
     if (apart.p < p_of_other_spreads)
-      remarks.push_back(
-          fmt::format("the cells of the recordings of {} scatter differently (p = {:.1g}): one spread is "
-                      "not that of each.",
-                      conditions[c].name, apart.p));
+      remarks.push_back(fmt::format(
+          "the cells of the recordings of {} scatter differently (p = {:.1g}): one spread is not that of each.",
+          conditions[c].name, apart.p));
   }
   return remarks;
 }

@@ -61,7 +61,7 @@ class TensionProfile {
   double middle() const { return quantile(tensions_, 0.5); }
   double spread() const { return central_width(tensions_) / (2 * normal_95); }
 
-  /// Each cell's fraction in the sum.
+  /// Each cell's fraction of the sum.
   std::vector<double> losses(double tension_Pa) {
     std::vector<double> losses;
     for (auto& [cell, last] : cells_) {

@@ -31,6 +31,7 @@ struct ParameterInterval {
   bool is_profile = false;  ///< of the likelihood; else from the curvature at its maximum
 };
 
+/// Symmetric about a value whose error is normally distributed.
 ParameterInterval normal_interval(double value, double standard_error, double level);
 
 struct FittedCells {

@@ -298,9 +298,9 @@ bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
 /// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error). Of a
 /// centred cell the error at degree 4 is below the greatest of 0.4 of the change from degree 3, of 6e-4, by which the
 /// two may agree by chance, and, in shear-thinning liquids, of 0.1 of the change of the stability margin m times
-/// (1 - m)^2, by which the change counts the more the nearer the limit is. Where less
-/// is asked the first state is that of degree 2, and the error at degree 3 below 0.2 of the change or 4e-3
-/// (docs/verification.md, "The stated error").
+/// (1 - m)^2, by which the change counts the more the nearer the limit is. Where less is asked the first state is that
+/// of degree 2, and the error at degree 3 below the greater of 0.2 of the change and 4e-3 (docs/verification.md, "The
+/// stated error").
 Geometry duct_geometry(const Problem& problem) {
   constexpr double rough = 5e-3;
   const bool is_centred = problem.offset == 0, is_rough = is_centred && problem.accuracy >= rough;

@@ -50,7 +50,8 @@ SampledBranch sample_at_heights(const TableSpec& spec, const SweepPoint& place, 
     on_the_way.axial_ratio *= std::min(compliance / way.first_compliance, 1.0);
     return problem_of(case_at(spec, on_the_way, stiffness / compliance));
   };
-  const auto found = branch_samples(problem_at(1), problem_at, way, stop);
+  const Problem problem = problem_at(1);
+  const auto found = branch_samples(problem, problem_at, way, stop);
 
   SampledBranch branch;
   branch.radius_um = place.radius_um;
@@ -60,7 +61,7 @@ SampledBranch sample_at_heights(const TableSpec& spec, const SweepPoint& place, 
   branch.end = end_of(covers ? Status::covered : end);
   branch.value.resize(std::ssize(found.states), measure_count);
   for (const StationaryState& state : found.states) {
-    MeasuredState measured = measure_state(state, problem_at(1), scales);
+    MeasuredState measured = measure_state(state, problem, scales);
     branch.value.row(branch.samples()) = measured.value.transpose();
     branch.stiffness.push_back(stiffness / state.outcome.reached);
     branch.contour.push_back(std::move(measured.contour));
