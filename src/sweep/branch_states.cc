@@ -3,18 +3,33 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/hermite.h"
 #include "shape/measures.h"
 
 namespace rheocyte {
 namespace {
 
-/// Ever finer resolutions; a state is accurate if the one before gives the same deformation.
-const std::array<Resolution, 5> resolutions = {
-    {{{2, 4, 1, 2}, 6}, {{2, 4, 1, 2}, 8}, {{3, 6, 1, 2}, 8}, {{3, 6, 1, 2}, 10}, {{4, 8, 2, 2}, 10}}};
-/// The error of a level is taken as this fraction of the change from the level before.
-constexpr double fraction_of_change = 0.5;
+/// Ever finer resolutions; a state is accurate if the one before gives the same deformation. Its error is taken as this
+/// fraction of the change from the level before.
+struct Level {
+  Resolution resolution;
+  double fraction_of_change;
+};
+const std::array<Level, 6> resolutions = {{{{{2, 4, 1, 2}, 5}, 1},
+                                           {{{2, 4, 1, 2}, 6}, 1},
+                                           {{{2, 4, 1, 2}, 8}, 0.5},
+                                           {{{3, 6, 1, 2}, 8}, 0.5},
+                                           {{{3, 6, 1, 2}, 10}, 0.5},
+                                           {{{4, 8, 2, 2}, 10}, 0.5}}};
+/// Of the admitted error; a state that is less accurate is solved on the next level, if it is there.
+constexpr double wanted_fraction = 0.5;
+/// Of the way from one place to another, in the compliance.
+double part_of_way(double from, double to, double u) { return std::expm1(u - from) / std::expm1(to - from); }
+
 /// Of Newton's method; on the level before, whose state only tells the error, less will do.
 constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
+/// Steps in u of states that the coarser mesh has and the finer one does not are halved down to this.
+constexpr double least_advance = 1e-3;
 /// Displacement of the first state, in r0; its deformation is some 1e-5.
 constexpr double first_displacement = 0.006;
 /// Step in u for slopes of the measures along the tangent.
@@ -37,11 +52,18 @@ double BranchStates::log_progress_slope(const BranchNode& node) const {
   return node.slope(int(progress_of(spec_))) / node.at(progress_of(spec_));
 }
 
+double BranchStates::power() const { return progress_of(spec_) == Measure::mode_3 ? 1 : 2; }
+
+double BranchStates::admitted_error(const BranchNode& node) const {
+  return spec_.accuracy * std::max(1.0, std::abs(log_progress_slope(node)) / power());
+}
+
 double BranchStates::stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
 Problem BranchStates::problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
 
 TubeDiscrete& BranchStates::at_level(int level) {
-  if (!discrete_[level]) discrete_[level] = std::make_unique<TubeDiscrete>(problem(0), resolutions[level]);
+  if (!discrete_[level])
+    discrete_[level] = std::make_unique<TubeDiscrete>(problem(0), resolutions[std::size_t(level)].resolution);
   return *discrete_[level];
 }
 
@@ -117,11 +139,45 @@ BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
   return {report.status, unmeasured(0, 0, report.last.unknowns)};
 }
 
-BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
+BranchStates::Way BranchStates::walk(const BranchNode& from, double u) {
   const ContinuationReport report =
       continue_branch(path(from.level, u), continuation(), {from.u, from.unknowns, from.tangent, 0});
   count(report.newton_iterations);
   return {report.status, unmeasured(report.last.parameter, from.level, report.last.unknowns)};
+}
+
+BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
+  const int coarse = from.level - 1;
+  BranchNode start = unmeasured(from.u, coarse, carried(from.unknowns, from.level, coarse));
+  start.tangent = carried(from.tangent, from.level, coarse);
+  Way way = walk(start, u);
+  const double reached = way.last.u;
+  if (reached == from.u) {
+    // Near a fold the coarser branch may end before the finer one.
+    const bool is_final = way.status == Status::stopped || way.status == Status::surface_unstable;
+    return is_final ? Way{way.status, from} : walk(from, u);
+  }
+  if (refine(way.last)) return way;
+  if (newton_.stop && *newton_.stop) return {Status::stopped, from};
+  // Near its end the finer branch may have ended before.
+  const double nearer = (from.u + reached) / 2;
+  return nearer - from.u > least_advance ? advance(from, nearer) : Way{Status::surface_unstable, from};
+}
+
+VectorXd BranchStates::carried(const VectorXd& unknowns, int from, int to) {
+  if (from == to || unknowns.size() == 0) return unknowns;
+  return transfer(at_level(from).space(), unknowns, at_level(to).space());
+}
+
+BranchStates::Way BranchStates::between(const BranchNode& a, const BranchNode& b, double u) {
+  TubeDiscrete& discrete = at_level(b.level);
+  VectorXd found = cubic_between(a, b, part_of_way(a.u, b.u, u));
+  const NewtonReport report = newton(discrete.system(), media_at(problem(u), 1), newton_, found);
+  count(report.iterations);
+  Status status = report.status;
+  if (status == Status::converged && is_wrinkled(problem(u), discrete.space(), found))
+    status = Status::surface_unstable;
+  return {status, unmeasured(u, b.level, std::move(found))};
 }
 
 bool BranchStates::measure(BranchNode& node) {
@@ -132,22 +188,32 @@ bool BranchStates::measure(BranchNode& node) {
     discrete.system().linearise(media_at(here, 1), node.unknowns);
     if (!discrete.system().has_factors()) return false;
     node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
-    node.state = measure_state(discrete.space(), here, scales, node.unknowns);
+    measure_with_slopes(node, scales);
     node.error = error_of(node);
-    if (node.error <= spec_.accuracy) break;
-    if (!refine(node)) return ++refused_, false;
+    const double admitted = admitted_error(node);
+    if (node.error <= wanted_fraction * admitted) return true;
+    if (refine(node)) continue;
+    refused_ += node.error > admitted;
+    return node.error <= admitted;
   }
+}
+
+void BranchStates::measure_with_slopes(BranchNode& node, const Scales& scales) {
   const auto moved = [&](double step) {
     return measure_state(at_level(node.level).space(), problem(node.u + step), scales,
                          node.unknowns + step * node.tangent);
   };
   const MeasuredState plus = moved(slope_step), minus = moved(-slope_step);
+  node.state = moved(0);
   node.slope = (plus.value - minus.value) / (2 * slope_step);
   node.contour_slope = (plus.contour - minus.contour) / (2 * slope_step);
-  return true;
 }
 
 double BranchStates::error_of(const BranchNode& node) {
+  const auto error_from = [&](double before) {
+    return resolutions[std::size_t(node.level)].fraction_of_change * std::abs(before / node.at(progress_of(spec_)) - 1);
+  };
+  if (node.progress_before > 0) return error_from(node.progress_before);
   TubeDiscrete& before = at_level(node.level - 1);
   VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, before.space());
   NewtonOptions options = newton_;
@@ -155,7 +221,7 @@ double BranchStates::error_of(const BranchNode& node) {
   const NewtonReport report = newton(before.system(), media_at(problem(node.u), 1), options, unknowns);
   count(report.iterations);
   if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
-  return fraction_of_change * std::abs(progress(node.level - 1, unknowns) / node.at(progress_of(spec_)) - 1);
+  return error_from(progress(node.level - 1, unknowns));
 }
 
 bool BranchStates::refine(BranchNode& node) {
@@ -165,15 +231,21 @@ bool BranchStates::refine(BranchNode& node) {
   const NewtonReport report = newton(next.system(), media_at(problem(node.u), 1), newton_, unknowns);
   count(report.iterations);
   if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space(), unknowns)) return false;
+  node.progress_before = progress(node.level, node.unknowns);
   ++node.level;
   node.unknowns = unknowns;
   node.tangent = {};
   return true;
 }
 
-double BranchStates::progress_in_the_middle(const BranchNode& a, const BranchNode& b) {
-  const double h = b.u - a.u;
-  return progress(a.level, (a.unknowns + b.unknowns) / 2 + h / 8 * (a.tangent - b.tangent));
+VectorXd BranchStates::cubic_between(const BranchNode& a, const BranchNode& b, double part) {
+  const double way = std::expm1(b.u - a.u);  // in the compliance, over that of a
+  const VectorXd slope = way * carried(a.tangent, a.level, b.level), end_slope = way * std::exp(a.u - b.u) * b.tangent;
+  return hermite(part)(carried(a.unknowns, a.level, b.level), b.unknowns, slope, end_slope);
+}
+
+double BranchStates::log_progress_between(const BranchNode& a, const BranchNode& b, double part) {
+  return std::log(progress(b.level, cubic_between(a, b, part)));
 }
 
 ShapeMeasures BranchStates::shape(int level, const VectorXd& unknowns) {

@@ -20,7 +20,8 @@ struct BranchNode {
   MeasuredState state;
   Eigen::VectorXd slope;  ///< d(value)/du
   Eigen::MatrixX2d contour_slope;
-  double error = 0;  ///< estimated, relative, of what tells how far the flow has deformed the cell
+  double progress_before = 0;  ///< what tells how far the flow has deformed the cell, on the level before; 0: unknown
+  double error = 0;            ///< estimated, relative, of what tells how far the flow has deformed the cell
 
   double at(Measure m) const { return state.value(int(m)); }
 };
@@ -33,6 +34,8 @@ class BranchStates {
   double stiffness(double u) const;
   double log_progress(const BranchNode& node) const;
   double log_progress_slope(const BranchNode& node) const;
+  /// Of the compliance, to which the progress is proportional at first.
+  double power() const;
 
   /// How a way along the branch ended, and the farthest state, not measured yet.
   struct Way {
@@ -43,13 +46,20 @@ class BranchStates {
   /// the tension that elongates it.
   Way enter();
   /// Goes to `u` as far as the branch goes, at the resolution of `from`.
+  Way walk(const BranchNode& from, double u);
+  /// The same at less cost: on the way at the resolution before that of `from`, at the end at its own.
   Way advance(const BranchNode& from, double u);
+  /// The state between two measured ones, at the resolution of the second.
+  Way between(const BranchNode& a, const BranchNode& b, double u);
+  /// Relative, of what tells how far the flow has deformed the cell: the spec's accuracy, and more where the branch is
+  /// so steep that the modulus is as accurate for all that.
+  double admitted_error(const BranchNode& node) const;
   /// Measures a state with its slopes and its error, on finer meshes if need be; false if it is not accurate.
   bool measure(BranchNode&);
   /// Carries a state to the next level; false if there is none or the state does not hold there.
   bool refine(BranchNode&);
-  /// Between two nodes of one level, by the cubic through both.
-  double progress_in_the_middle(const BranchNode& a, const BranchNode& b);
+  /// A part of the way between two measured nodes, in the compliance: of the cubic through their states.
+  double log_progress_between(const BranchNode& a, const BranchNode& b, double part);
   /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
   void release_coarser_than(int level);
 
@@ -59,7 +69,7 @@ class BranchStates {
   double factorisation_seconds() const;
 
  private:
-  static constexpr int levels = 5;
+  static constexpr int levels = 6;
 
   Way enter_round();
   /// To the wanted axial ratio at the first stiffness.
@@ -68,7 +78,12 @@ class BranchStates {
   TubeDiscrete& at_level(int level);
   Path path(int level, double end);
   ContinuationOptions continuation();
+  void measure_with_slopes(BranchNode&, const Scales&);
   double error_of(const BranchNode&);
+  /// At the level of b.
+  VectorXd cubic_between(const BranchNode& a, const BranchNode& b, double part);
+  /// From one level to another.
+  VectorXd carried(const VectorXd& unknowns, int from, int to);
   ShapeMeasures shape(int level, const VectorXd& unknowns);
   double progress(int level, const VectorXd& unknowns);
   void count(int iterations);

@@ -1,8 +1,11 @@
 #include "table/branch.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "numeric/hermite.h"
 #include "numeric/no_value.h"
@@ -25,86 +28,134 @@ std::string reason(Status status) {
   }
 }
 
-// The place of a stiffness: the interval behind a sample, and how far in it, 0 .. 1 in ln(stiffness).
-struct Place {
-  int sample = 0;
-  double fraction = 0, width = 0;  ///< width: of the interval in ln(stiffness), negative
-};
-
-Place place_of(const SampledBranch& branch, double stiffness) {
-  assert(!branch.empty() && stiffness <= branch.stiffness.front() && stiffness >= branch.stiffness.back());
-  if (branch.samples() == 1) return {};
+/// The interval of the samples, stiff to soft, in which a stiffness lies; the branch has at least two.
+std::size_t interval_around(const SampledBranch& branch, double stiffness) {
+  assert(stiffness <= branch.stiffness.front() && stiffness >= branch.stiffness.back());
   const auto softer = std::upper_bound(branch.stiffness.begin(), branch.stiffness.end(), stiffness, std::greater<>());
-  const int sample = std::clamp(int(softer - branch.stiffness.begin()) - 1, 0, branch.samples() - 2);
-  const double stiff = branch.stiffness[std::size_t(sample)],
-               width = std::log(branch.stiffness[std::size_t(sample) + 1] / stiff);
-  return {sample, std::log(stiffness / stiff) / width, width};
+  const auto behind = std::size_t(softer - branch.stiffness.begin());
+  return std::clamp<std::size_t>(behind, 1, branch.stiffness.size() - 1) - 1;
 }
 
-// One measure between two samples; deformations by their logarithm, because d ~ stiffness^-2 over many decades.
-class Piece {
- public:
-  Piece(const SampledBranch& branch, int sample, double width, Measure measure) {
-    const auto column = Eigen::Index(int(measure));
-    for (const int end : {0, 1}) {
-      value_[end] = branch.value(sample + end, column);
-      slope_[end] = branch.slope(sample + end, column) * width;
+/// The samples around an interval, and where they are: polynomials run in the compliance, in which what elastic cells
+/// do is analytic down to the undeformed one.
+struct Around {
+  double first;  ///< the stiffness before the interval
+  std::vector<std::size_t> samples;
+  std::vector<double> places;  ///< first / stiffness - 1
+
+  Around(const SampledBranch& branch, std::size_t interval) : first(branch.stiffness[interval]) {
+    const auto dented = [&](std::size_t i) {
+      return is_dented(branch.at(int(i), Measure::deformation), branch.at(int(i), Measure::deformation_raw));
+    };
+    // Those of one kind.
+    std::size_t begin = interval, end = interval + 2;
+    if (dented(interval) == dented(interval + 1)) {
+      while (begin > 0 && dented(begin - 1) == dented(interval)) --begin;
+      while (end < branch.stiffness.size() && dented(end) == dented(interval)) ++end;
     }
-    const bool is_deformation = measure == Measure::deformation || measure == Measure::deformation_raw;
-    logarithmic_ = is_deformation && value_[0] > 0 && value_[1] > 0;
-    if (!logarithmic_) return;
-    for (const int end : {0, 1}) {
-      slope_[end] /= value_[end];
-      value_[end] = std::log(value_[end]);
+    const auto place = [&](std::size_t i) { return place_of(branch.stiffness[begin + i]); };
+    samples = places_around(end - begin, place, interval - begin, samples_around);
+    places.reserve(samples.size());
+    for (std::size_t& i : samples) {
+      places.push_back(place(i));
+      i += begin;
     }
   }
+  double place_of(double stiffness) const { return first / stiffness - 1; }
+  /// d ln(stiffness) / d(place)
+  static double slope_at(double place) { return -1 / (1 + place); }
 
-  double inner(double value) const { return logarithmic_ ? std::log(value) : value; }
-  double at(double t) const { return logarithmic_ ? std::exp(inner_at(t)) : inner_at(t); }
-  double inner_at(double t) const { return hermite(t)(value_[0], value_[1], slope_[0], slope_[1]); }
+  /// The polynomial through what `value` gives of the samples, and `slope` with ln(stiffness).
+  template <class Value, class Slope>
+  auto at(double stiffness, const Value& value, const Slope& slope) const {
+    const LagrangeWeights weights = hermite_weights(places, place_of(stiffness));
+    const auto weight = [&](std::size_t k) { return weights.slope[k] * slope_at(places[k]); };
+    auto sum = (weights.value[0] * value(samples[0]) + weight(0) * slope(samples[0])).eval();
+    for (std::size_t k = 1; k < samples.size(); ++k)
+      sum += weights.value[k] * value(samples[k]) + weight(k) * slope(samples[k]);
+    return sum;
+  }
+};
 
-  // The place between 0 and 1 where the measure has a value that lies between those of the ends.
-  double place_of(double wanted) const {
-    const double target = inner(wanted), rise = value_[1] - value_[0];
-    const double start = rise == 0 ? 0 : std::clamp((target - value_[0]) / rise, 0.0, 1.0);
-    const auto miss = [&](double t) {
-      return ValueAndSlope{inner_at(t) - target, hermite_slope(t)(value_[0], value_[1], slope_[0], slope_[1])};
+/// One measure between two samples. Deformations by their logarithm, because they go over many decades, and those of
+/// round cells over the square of the compliance, to which they are proportional at first.
+class Piece {
+ public:
+  Piece(const SampledBranch& branch, const Around& around, Measure measure) {
+    std::array<double, samples_around> values{}, slopes{};
+    const std::size_t count = around.samples.size();
+    logarithmic_ = measure == Measure::deformation || measure == Measure::deformation_raw;
+    for (std::size_t k = 0; k < count; ++k) {
+      values[k] = branch.value(Eigen::Index(around.samples[k]), int(measure));
+      slopes[k] = branch.slope(Eigen::Index(around.samples[k]), int(measure)) * Around::slope_at(around.places[k]);
+      logarithmic_ = logarithmic_ && values[k] > 0;
+    }
+    power_ = logarithmic_ && branch.axial_ratio == 0 ? 2 : 0;
+    for (std::size_t k = 0; logarithmic_ && k < count; ++k) {
+      const double compliance = 1 + around.places[k];
+      slopes[k] = slopes[k] / values[k] - power_ / compliance;
+      values[k] = std::log(values[k]) - power_ * std::log(compliance);
+    }
+    polynomial_.emplace(around.places, std::span(values).first(count), std::span(slopes).first(count));
+  }
+
+  double at(double place) const {
+    const double value = inner(place).value;
+    return logarithmic_ ? std::exp(value) : value;
+  }
+
+  /// The place from 0 to `last`, the ends of the interval, where the measure has a value that lies between theirs.
+  double place_of(double wanted, double last) const {
+    const double target = logarithmic_ ? std::log(wanted) : wanted;
+    const double first = inner(0).value, rise = inner(last).value - first;
+    const double fraction = rise == 0 ? 0 : std::clamp((target - first) / rise, 0.0, 1.0);
+    const auto miss = [&](double place) {
+      const auto [value, slope] = inner(place);
+      return ValueAndSlope{value - target, slope};
     };
-    return bracketed_newton(miss, 0, 1, start, rise > 0, 1e-15);
+    return bracketed_newton(miss, 0, last, fraction * last, rise > 0, 1e-15 * last);
   }
 
  private:
-  std::array<double, 2> value_{}, slope_{};
-  bool logarithmic_ = false;
-};
+  /// Of the logarithm, where it is taken.
+  ValueAndSlope inner(double place) const {
+    const auto [value, slope] = polynomial_->at(place);
+    if (power_ == 0) return {value, slope};
+    return {value + power_ * std::log1p(place), slope + power_ / (1 + place)};
+  }
 
-double piece_value(const SampledBranch& branch, const Place& place, Measure measure) {
-  if (branch.samples() == 1) return branch.at(0, measure);
-  return Piece(branch, place.sample, place.width, measure).at(place.fraction);
-}
+  std::optional<HermitePolynomial> polynomial_;
+  bool logarithmic_ = false;
+  double power_ = 0;  ///< of the compliance
+};
 
 }  // namespace
 
 BranchEnd end_of(Status status) { return {status, reason(status)}; }
 
 double interpolate(const SampledBranch& branch, Measure measure, double stiffness) {
-  return piece_value(branch, place_of(branch, stiffness), measure);
+  if (branch.samples() == 1) return branch.at(0, measure);
+  const Around around(branch, interval_around(branch, stiffness));
+  return Piece(branch, around, measure).at(around.place_of(stiffness));
 }
 
 Eigen::VectorXd interpolate(const SampledBranch& branch, double stiffness) {
-  const Place place = place_of(branch, stiffness);
-  Eigen::VectorXd values(measure_count);
-  for (int m = 0; m < measure_count; ++m) values(m) = piece_value(branch, place, Measure(m));
+  if (branch.samples() == 1) return branch.value.row(0);
+  const Around around(branch, interval_around(branch, stiffness));
+  Eigen::VectorXd values = around.at(
+      stiffness, [&](std::size_t i) { return branch.value.row(Eigen::Index(i)).transpose(); },
+      [&](std::size_t i) { return branch.slope.row(Eigen::Index(i)).transpose(); });
+  for (const Measure m : {Measure::deformation, Measure::deformation_raw})
+    values(int(m)) = Piece(branch, around, m).at(around.place_of(stiffness));
   return values;
 }
 
 Eigen::MatrixX2d interpolate_contour(const SampledBranch& branch, double stiffness) {
-  const Place place = place_of(branch, stiffness);
-  const auto first = std::size_t(place.sample);
   if (branch.samples() == 1) return branch.contour.front();
-  const auto w = hermite(place.fraction);
-  return w.first * branch.contour[first] + w.last * branch.contour[first + 1] +
-         place.width * (w.first_slope * branch.contour_slope[first] + w.last_slope * branch.contour_slope[first + 1]);
+  return Around(branch, interval_around(branch, stiffness))
+      .at(
+          stiffness, [&](std::size_t i) -> const auto& { return branch.contour[i]; },
+          [&](std::size_t i) -> const auto& { return branch.contour_slope[i]; });
 }
 
 double stiffness_at(const SampledBranch& branch, Measure measure, double value) {
@@ -116,9 +167,9 @@ double stiffness_at(const SampledBranch& branch, Measure measure, double value) 
     const double next = branch.at(i + 1, measure);
     if ((here - value) * (next - value) >= 0) continue;
     const double stiff = branch.stiffness[std::size_t(i)], soft = branch.stiffness[std::size_t(i) + 1];
-    const double width = std::log(soft / stiff);
-    const double fraction = Piece(branch, i, width, measure).place_of(value);
-    return std::clamp(stiff * std::exp(fraction * width), soft, stiff);
+    const Around around(branch, std::size_t(i));
+    const double place = Piece(branch, around, measure).place_of(value, around.place_of(soft));
+    return std::clamp(stiff / (1 + place), soft, stiff);
   }
   return no_value;
 }

@@ -73,8 +73,15 @@ struct SampledBranch {
   double at(int sample, Measure m) const { return value(sample, int(m)); }
 };
 
-/// Cubic Hermite interpolation of a measure in ln stiffness; ln deformation for the deformations. The stiffness must
-/// lie between the samples' (asserted).
+/// Samples through whose values and slopes a polynomial between two of them runs.
+inline constexpr std::size_t samples_around = 4;
+
+/// Whether the outline has a dent that the convex hull bridges: where one appears, what is measured on the hull is less
+/// smooth than the outline, and no polynomial runs across.
+inline bool is_dented(double deformation, double deformation_raw) { return deformation_raw > deformation * (1 + 1e-5); }
+
+/// Hermite interpolation of a measure in 1 / stiffness, of deformations by their logarithm. The stiffness must lie
+/// between the samples' (asserted).
 double interpolate(const SampledBranch&, Measure, double stiffness);
 /// All measures at once.
 Eigen::VectorXd interpolate(const SampledBranch&, double stiffness);

@@ -1,5 +1,6 @@
 #include "table/branch_between.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -41,33 +42,64 @@ struct Heights {
   double fraction(double height) const { return (height - first) / (last - first); }
 };
 
-std::vector<Heights> heights_of(const TableSpec& spec, Branches near) {
-  const std::string family = family_of(spec, *near.front());
-  double first = -HUGE_VAL, last = HUGE_VAL, area = HUGE_VAL;
+/// Where branches that cover the table's ranges are cut: all of them at one deformation or one area, whichever comes
+/// first, because how far a sample lies beyond the ranges is accidental.
+std::vector<double> ends_of_covered(const TableSpec& spec, Branches near) {
+  double deformation = HUGE_VAL, area = HUGE_VAL;
   for (const auto* branch : near) {
-    first = std::max(first, first_of(*branch, Measure::deformation));
-    last = std::min(last, last_of(*branch, Measure::deformation));
-    area = std::min(area, last_of(*branch, Measure::area_um2));
+    const bool leaves_by_deformation = last_of(*branch, Measure::deformation) > spec.max_deformation;
+    const Measure m = leaves_by_deformation ? Measure::deformation : Measure::area_um2;
+    double& limit = leaves_by_deformation ? deformation : area;
+    limit = std::min(limit, last_of(*branch, m));
   }
-  std::vector<Heights> heights;
+  std::vector<double> ends;
   for (const auto* branch : near) {
-    const bool is_own = branch->bending_kBT == 0;
-    const auto end = [&] {
-      if (family == "deformation") return last;
-      if (family != "area") return last_of(*branch, Measure::deformation);
-      const double stiffness = stiffness_at(*branch, Measure::area_um2, area);
-      return std::isfinite(stiffness) ? interpolate(*branch, Measure::deformation, stiffness) : no_value;
-    };
-    heights.push_back({std::log(is_own ? first : first_of(*branch, Measure::deformation)), std::log(end())});
+    const double stiffness = stiffness_at(*branch, Measure::area_um2, area);
+    const double last = std::isfinite(stiffness) ? interpolate(*branch, Measure::deformation, stiffness)
+                                                 : last_of(*branch, Measure::deformation);
+    ends.push_back(std::log(std::min(last, deformation)));
+  }
+  return ends;
+}
+
+/// Where other branches are cut. Their last states scatter before the physical end: a polynomial of half as many terms
+/// as there are branches (least squares in ln(radius)), below all of them.
+std::vector<double> smooth_ends(Branches near) {
+  const Eigen::Index terms = std::min<Eigen::Index>(4, (std::ssize(near) + 1) / 2);
+  Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(std::ssize(near), terms);
+  VectorXd last(std::ssize(near));
+  for (Eigen::Index k = 0; k < last.size(); ++k) {
+    const double place = std::log(near[std::size_t(k)]->radius_um / near.front()->radius_um);
+    for (Eigen::Index power = 1; power < terms; ++power) powers(k, power) = powers(k, power - 1) * place;
+    last(k) = std::log(last_of(*near[std::size_t(k)], Measure::deformation));
+  }
+  const VectorXd smooth = powers * powers.completeOrthogonalDecomposition().solve(last);
+  const VectorXd ends = smooth.array() + (last - smooth).minCoeff();
+  return {ends.begin(), ends.end()};
+}
+
+std::vector<Heights> heights_of(const TableSpec& spec, Branches near) {
+  const std::vector<double> ends =
+      near.front()->end.status == Status::covered ? ends_of_covered(spec, near) : smooth_ends(near);
+  double first = -HUGE_VAL;
+  for (const auto* branch : near) first = std::max(first, first_of(*branch, Measure::deformation));
+  std::vector<Heights> heights;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const bool is_own = near[k]->bending_kBT == 0;
+    heights.push_back({std::log(is_own ? first : first_of(*near[k], Measure::deformation)), ends[k]});
   }
   return heights;
 }
 
-/// Everything that is interpolated, of the state of a branch at a height: ln(stiffness), measures, contour.
-VectorXd state_at(const SampledBranch& branch, double height) {
+double stiffness_at_height(const SampledBranch& branch, double height) {
   const double d = std::clamp(std::exp(height), first_of(branch, Measure::deformation),
                               std::max(last_of(branch, Measure::deformation), first_of(branch, Measure::deformation)));
-  const double stiffness = stiffness_at(branch, Measure::deformation, d);
+  return stiffness_at(branch, Measure::deformation, d);
+}
+
+/// Everything that is interpolated, of the state of a branch at a height: ln(stiffness), measures, contour.
+VectorXd state_at(const SampledBranch& branch, double height) {
+  const double stiffness = stiffness_at_height(branch, height);
   if (!std::isfinite(stiffness)) return {};
   const Eigen::MatrixX2d contour = interpolate_contour(branch, stiffness);
   VectorXd state(1 + measure_count + contour.size());
@@ -171,10 +203,8 @@ class Between {
 
 }  // namespace
 
-std::string family_of(const TableSpec& spec, const SampledBranch& branch) {
-  if (branch.empty()) return "empty";
-  if (branch.end.status != Status::covered) return name(branch.end.status);
-  return last_of(branch, Measure::deformation) > spec.max_deformation ? "deformation" : "area";
+std::string family_of(const SampledBranch& branch) {
+  return branch.empty() ? "empty" : std::string(name(branch.end.status));
 }
 
 SampledBranch branch_between(const TableSpec& spec, Branches near, double radius_um) {
@@ -182,15 +212,27 @@ SampledBranch branch_between(const TableSpec& spec, Branches near, double radius
   return Between(spec, near, radius_um).branch();
 }
 
-BranchDifference difference(const SampledBranch& predicted, const SampledBranch& computed) {
-  BranchDifference off;
-  if (predicted.empty() || computed.empty()) return {HUGE_VAL, HUGE_VAL};
-  for (int i = 0; i < computed.samples(); ++i) {
-    const double stiffness = stiffness_at(predicted, Measure::deformation, computed.at(i, Measure::deformation));
-    if (std::isfinite(stiffness))
-      off.stiffness = std::max(off.stiffness, std::abs(stiffness / computed.stiffness[std::size_t(i)] - 1));
+BranchDifference difference(const TableSpec& spec, Branches near, const SampledBranch& computed) {
+  std::vector<double> places;
+  for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
+  const std::vector<double> weights = lagrange_weights(places, std::log(computed.radius_um)).value;
+  const std::vector<Heights> heights = heights_of(spec, near);
+  Heights predicted{0, 0};
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    predicted.first += weights[k] * heights[k].first;
+    predicted.last += weights[k] * heights[k].last;
   }
-  off.end = std::abs(last_of(predicted, Measure::deformation) / last_of(computed, Measure::deformation) - 1);
+  BranchDifference off;
+  for (int i = 0; i < computed.samples(); ++i) {
+    const double fraction = predicted.fraction(std::log(computed.at(i, Measure::deformation)));
+    if (fraction < 0 || fraction > 1) continue;
+    double log_stiffness = 0;
+    for (std::size_t k = 0; k < near.size(); ++k)
+      log_stiffness += weights[k] * std::log(stiffness_at_height(*near[k], heights[k].at(fraction)));
+    off.stiffness = std::max(off.stiffness, std::abs(std::exp(log_stiffness) / computed.stiffness[std::size_t(i)] - 1));
+  }
+  if (computed.end.status != Status::covered)
+    off.end = std::abs(std::exp(predicted.last) / last_of(computed, Measure::deformation) - 1);
   return off;
 }
 

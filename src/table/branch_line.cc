@@ -10,7 +10,7 @@ constexpr std::size_t stencil_size = 8, min_stencil = 4;
 constexpr auto nobody = static_cast<std::size_t>(-1);
 /// Of the accuracy: a branch that is left out may be missed by so much, relative in the stiffness. Polynomials at half
 /// of the distance miss by less than a fiftieth of that.
-constexpr double max_miss = 1.5;
+constexpr double max_miss = 2;
 /// Of the deformation at the end of a branch that is left out.
 constexpr double max_miss_of_end = 0.05;
 const std::string without_states = "empty";
@@ -19,8 +19,7 @@ const std::string without_states = "empty";
 
 BranchLine::BranchLine(const TableSpec& spec, const std::map<int, std::shared_ptr<const SampledBranch>>& branches)
     : spec_(spec) {
-  for (const auto& [place, branch] : branches)
-    nodes_.push_back({place, branch, branch->empty() ? without_states : family_of(spec, *branch)});
+  for (const auto& [place, branch] : branches) nodes_.push_back({place, branch, family_of(*branch)});
   for (std::size_t k = 1; k + 1 < nodes_.size(); ++k) predict(k);
 }
 
@@ -31,7 +30,7 @@ void BranchLine::predict(std::size_t node) {
   const auto near = stencil(node - 1, node);
   here.has_neighbours = near.size() >= min_stencil;
   if (!here.has_neighbours) return;
-  const BranchDifference off = difference(branch_between(spec_, near, here.branch->radius_um), *here.branch);
+  const BranchDifference off = difference(spec_, near, *here.branch);
   here.is_predicted = off.stiffness < max_miss * spec_.accuracy && off.end < max_miss_of_end;
 }
 

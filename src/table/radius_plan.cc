@@ -13,7 +13,7 @@ namespace {
 
 /// Between equal distances and those of Chebyshev's polynomials: at both ends there are neighbours on one side only.
 std::vector<int> first_places(int count) {
-  constexpr int intervals = 16;
+  constexpr int intervals = 10;
   std::set<int> places;
   for (int k = 0; k <= intervals; ++k) {
     const double even = static_cast<double>(k) / intervals, dense = (1 - std::cos(std::numbers::pi * even)) / 2;
@@ -87,28 +87,30 @@ bool RadiusPlan::find(const std::vector<int>& places, bool regularised, Nodes& n
 }
 
 std::vector<int> RadiusPlan::next_places(const Nodes& nodes, bool regularised) {
-  std::vector<int> places;
-  std::map<BranchTask, Branch> between;
   const BranchLine line(spec_, nodes);
-  for (std::size_t gap = 0; gap < line.gaps(); ++gap) {
-    const int first = line.place(gap) + 1, last = line.place(gap + 1) - 1;
-    if (first > last) continue;
-    if (!line.is_smooth(gap)) {
-      places.push_back((first + last) / 2);
-      continue;
-    }
-    for (int place = first; place <= last; ++place) {
+  std::vector<int> middles;
+  for (std::size_t gap = 0; gap < line.gaps(); ++gap)
+    if (!line.is_smooth(gap) && line.place(gap) + 1 < line.place(gap + 1))
+      middles.push_back((line.place(gap) + line.place(gap + 1)) / 2);
+  return middles.empty() ? lie_between(line, regularised) : middles;
+}
+
+std::vector<int> RadiusPlan::lie_between(const BranchLine& line, bool regularised) {
+  std::vector<int> untold;
+  std::map<BranchTask, Branch> between;
+  for (std::size_t gap = 0; gap < line.gaps(); ++gap)
+    for (int place = line.place(gap) + 1; place < line.place(gap + 1); ++place) {
       const BranchTask task{place, regularised};
+      if (known_.contains(task)) continue;
       Branch branch = records_(task);
       if (!branch) branch = line.between(gap, places_[static_cast<std::size_t>(place)].radius_um);
       if (branch)
         between[task] = branch;
       else
-        places.push_back(place);
+        untold.push_back(place);
     }
-  }
-  if (places.empty()) known_.merge(between);
-  return places;
+  if (untold.empty()) known_.merge(between);
+  return untold;
 }
 
 }  // namespace rheocyte

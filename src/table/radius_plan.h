@@ -51,6 +51,8 @@ class RadiusPlan {
   bool find(const std::vector<int>& places, bool regularised, Nodes& nodes);
   /// The places that are computed next; none once the branches between the nodes are known.
   std::vector<int> next_places(const Nodes& nodes, bool regularised);
+  /// Tells the branches between the nodes; returns the places where that cannot be done.
+  std::vector<int> lie_between(const BranchLine&, bool regularised);
 
   TableSpec spec_;
   std::vector<SweepPoint> places_;

@@ -1,11 +1,9 @@
-// A polynomial comes back from its values, its slope too, and a cubic from two values and slopes.
+// A polynomial comes back from its values, its slope too.
 #include "numeric/lagrange.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-
-#include "numeric/hermite.h"
 
 namespace rheocyte::lagrange_test {
 namespace {
@@ -36,15 +34,6 @@ TEST(Lagrange, TheChangeIsThatFromTheLineBetweenTheMiddleNodes) {
   const auto found = lagrange_estimate(std::span<const Node>(nodes), 0.5, &Node::x, &Node::y);
   EXPECT_NEAR(found.value, cubic(0.5), 1e-14);
   EXPECT_NEAR(found.change, cubic(0.5) - 0.5 * (cubic(0) + cubic(1)), 1e-14);
-}
-
-TEST(Hermite, GivesBackACubicWithItsSlope) {
-  const double a = 1, width = 2.5, b = a + width;
-  for (const double t : {0.0, 0.3, 1.0}) {
-    const double x = a + t * width;
-    EXPECT_NEAR(hermite(t)(cubic(a), cubic(b), width * slope(a), width * slope(b)), cubic(x), 1e-13);
-    EXPECT_NEAR(hermite_slope(t)(cubic(a), cubic(b), width * slope(a), width * slope(b)) / width, slope(x), 1e-13);
-  }
 }
 
 }  // namespace

@@ -49,13 +49,13 @@ class Computed {
 };
 
 TEST(RadiusPlan, OfASmoothTableTheFirstRadiiAreEnough) {
-  // Stiffness, area and contour of each left-out branch, at its own samples, are those of the closed form to 2e-5: the
-  // cubic between 24 samples.
+  // Stiffness, area and contour of each left-out branch, at its own samples, are those of the closed form to 5e-6: the
+  // polynomials between 24 samples.
   const auto spec = spec_of_hundred_radii();
   Computed computed(invented_branches(spec), spec);
   RadiusPlan plan = computed.plan(spec);
   computed.complete(plan);
-  EXPECT_EQ(computed.done().size(), 17U);
+  EXPECT_EQ(computed.done().size(), 11U);
   for (int i = 0; i < 100; ++i) {
     const auto branch = plan.branch({i, false});
     ASSERT_TRUE(branch);
@@ -64,16 +64,16 @@ TEST(RadiusPlan, OfASmoothTableTheFirstRadiiAreEnough) {
     EXPECT_GE(branch->at(branch->samples() - 1, Measure::deformation), spec.max_deformation);
     for (int k = 0; k < branch->samples(); ++k) {
       const double d = branch->at(k, Measure::deformation), stiffness = branch->stiffness[std::size_t(k)];
-      EXPECT_NEAR(stiffness / invented_stiffness(branch->radius_um, d), 1, 2e-5) << i << " " << d;
-      EXPECT_NEAR(branch->at(k, Measure::area_um2) / invented_area(branch->radius_um, d), 1, 2e-5);
+      EXPECT_NEAR(stiffness / invented_stiffness(branch->radius_um, d), 1, 5e-6) << i << " " << d;
+      EXPECT_NEAR(branch->at(k, Measure::area_um2) / invented_area(branch->radius_um, d), 1, 5e-6);
       const auto contour = invented_contour(branch->radius_um, d);
-      EXPECT_LT((branch->contour[std::size_t(k)] - contour).norm(), 2e-5 * contour.norm());
+      EXPECT_LT((branch->contour[std::size_t(k)] - contour).norm(), 5e-6 * contour.norm());
     }
   }
 }
 
 TEST(RadiusPlan, BetweenItsSamplesALeftOutBranchIsAccurate) {
-  // Values and slopes together: the cubic in the middles of the samples.
+  // Values and slopes together: the polynomials in the middles of the samples.
   const auto spec = spec_of_hundred_radii();
   Computed computed(invented_branches(spec), spec);
   RadiusPlan plan = computed.plan(spec);
@@ -83,7 +83,7 @@ TEST(RadiusPlan, BetweenItsSamplesALeftOutBranchIsAccurate) {
     for (int k = 1; k < branch->samples(); ++k) {
       const double stiffness = std::sqrt(branch->stiffness[std::size_t(k) - 1] * branch->stiffness[std::size_t(k)]);
       const double d = interpolate(*branch, Measure::deformation, stiffness);
-      EXPECT_NEAR(d / invented_deformation(branch->radius_um, stiffness), 1, 4e-5) << i << " " << d;
+      EXPECT_NEAR(d / invented_deformation(branch->radius_um, stiffness), 1, 5e-6) << i << " " << d;
     }
   }
 }
