@@ -96,9 +96,14 @@ std::vector<std::size_t> places_around(std::size_t count, const Place& place, st
   std::vector<std::size_t> chosen{interval, interval + 1};
   chosen.reserve(most);
   std::optional<std::size_t> first = interval, last = interval + 1;
+  const auto take = [&](std::optional<std::size_t>& end, bool behind) {
+    if (!end || chosen.size() == most) return;
+    end = next(*end, behind);
+    if (end) chosen.push_back(*end);
+  };
   while ((first || last) && chosen.size() < most) {
-    if (first && (first = next(*first, false))) chosen.push_back(*first);
-    if (chosen.size() < most && last && (last = next(*last, true))) chosen.push_back(*last);
+    take(first, false);
+    take(last, true);
   }
   return chosen;
 }
