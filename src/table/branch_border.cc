@@ -27,8 +27,21 @@ End end_of(const LogBranch& branch, double greatest) {
   return {branch.last(), why.is_physical() ? OutOfTable::unstable : OutOfTable::unresolved};
 }
 
+/// Branches of large cells leave the table by their area, all of them at about the same one and at any deformation:
+/// where others reach the greatest deformation at areas of no column, these bound nothing.
+void leave_out_exits_by_area(std::vector<End>& ends, double greatest, double last_column) {
+  const auto bounds = [&](const End& end) {
+    return end.point.log_deformation == greatest && end.point.log_area >= last_column;
+  };
+  if (std::ranges::none_of(ends, bounds)) return;
+  std::erase_if(ends, [&](const End& end) {
+    return end.beyond == OutOfTable::too_soft && end.point.log_deformation < greatest &&
+           end.point.log_area > last_column;
+  });
+}
+
 // Without those that were not followed to their end: one to three of them between two that were.
-std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
+std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest, double last_column) {
   constexpr std::size_t max_gap = 3;
   std::vector<End> kept, gap;
   for (const auto& branch : branches) {
@@ -42,6 +55,7 @@ std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
     kept.push_back(end);
   }
   kept.insert(kept.end(), gap.begin(), gap.end());
+  leave_out_exits_by_area(kept, greatest, last_column);
   std::ranges::stable_sort(kept, {}, [](const End& end) { return end.point.log_area; });
   return kept;
 }
@@ -50,8 +64,8 @@ std::vector<End> ends_of(std::span<const LogBranch> branches, double greatest) {
 /// the states.
 class EndPolygon {
  public:
-  EndPolygon(std::span<const LogBranch> branches, double greatest)
-      : ends_(ends_of(branches, greatest)), smallest_(branches.front()), largest_(branches.back()) {}
+  EndPolygon(std::span<const LogBranch> branches, double greatest, double last_column)
+      : ends_(ends_of(branches, greatest, last_column)), smallest_(branches.front()), largest_(branches.back()) {}
 
   double at(double log_area) const {
     if (ends_.empty() || log_area > ends_.back().point.log_area) return beyond_the_last(log_area);
@@ -101,7 +115,7 @@ double LogBranch::softest() const { return std::log(branch_->stiffness.back()); 
 
 Border upper_border(std::span<const LogBranch> branches, const TableSpec& spec, const Columns& columns) {
   const double greatest = std::log(spec.max_deformation);
-  const EndPolygon polygon(branches, greatest);
+  const EndPolygon polygon(branches, greatest, columns.at(columns.count - 1));
   // The least height within the reach, then the mean of these within the reach: never above the polygon, and smooth.
   const int margin = 2 * reach * points_per_column, count = (columns.count - 1) * points_per_column + 1 + 2 * margin;
   std::vector<double> line(static_cast<std::size_t>(count));

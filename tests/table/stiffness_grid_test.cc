@@ -43,6 +43,28 @@ TEST(StiffnessGrid, IsTheClosedFormOfASmoothTable) {
   EXPECT_LT(greatest, 2e-6) << "cubics between 48 samples, 128 columns and 112 rows";
 }
 
+TEST(StiffnessGrid, WhereLargeCellsLeaveTheTableByTheirAreaItIsAccurateToTheLastColumn) {
+  // Each of these branches ends at the first sample beyond the greatest area, at whatever deformation it has there.
+  const auto spec = spec_of_fifty_radii({});
+  std::vector<SampledBranch> branches;
+  int number = 0;
+  for (const double radius : sweep_radii_um(spec)) {
+    InventedSweep sweep = covering(spec, radius, 48);
+    const double area = (1.02 + 0.005 * (number++ % 4)) * spec.max_area_um2;
+    const double exit = 2 * (area / invented_area(radius, 0) - 1);
+    if (exit < spec.max_deformation)
+      sweep.softest = invented_stiffness(radius, std::max(exit, 2 * spec.min_deformation));
+    branches.push_back(invented_branch(radius, sweep));
+  }
+  const StiffnessGrid grid(make_stiffness_grid(spec, branches, "test").value());
+  for (const auto& [area, d] : random_queries(spec, 20000)) {
+    if (area < 0.9 * spec.max_area_um2) continue;
+    const auto answer = grid.answer(area, d);
+    ASSERT_EQ(answer.reason, OutOfTable::none) << area << " " << d;
+    EXPECT_NEAR(std::exp(answer.log_stiffness) / invented_modulus(area, d), 1, 1e-5) << area << " " << d;
+  }
+}
+
 TEST(StiffnessGrid, DerivativesAreThoseOfTheValues) {
   const auto with = spec_of_fifty_radii({"table.bending_beyond_kBT=1e4"});
   const StiffnessGrid grid(make_stiffness_grid(with, invented_unstable_branches(with), "test").value());
