@@ -23,9 +23,6 @@ const std::array<Level, 6> resolutions = {{{{{2, 4, 1, 2}, 5}, 1},
                                            {{{4, 8, 2, 2}, 10}, 0.5}}};
 /// Of the admitted error; a state that is less accurate is solved on the next level, if it is there.
 constexpr double wanted_fraction = 0.5;
-/// Of the way from one place to another, in the compliance.
-double part_of_way(double from, double to, double u) { return std::expm1(u - from) / std::expm1(to - from); }
-
 /// Of Newton's method; on the level before, whose state only tells the error, less will do.
 constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
 /// Steps in u of states that the coarser mesh has and the finer one does not are halved down to this.
@@ -171,7 +168,7 @@ VectorXd BranchStates::carried(const VectorXd& unknowns, int from, int to) {
 
 BranchStates::Way BranchStates::between(const BranchNode& a, const BranchNode& b, double u) {
   TubeDiscrete& discrete = at_level(b.level);
-  VectorXd found = cubic_between(a, b, part_of_way(a.u, b.u, u));
+  VectorXd found = cubic_between(a, b, std::expm1(u - a.u) / std::expm1(b.u - a.u));
   const NewtonReport report = newton(discrete.system(), media_at(problem(u), 1), newton_, found);
   count(report.iterations);
   Status status = report.status;
@@ -232,9 +229,10 @@ bool BranchStates::refine(BranchNode& node) {
   count(report.iterations);
   if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space(), unknowns)) return false;
   node.progress_before = progress(node.level, node.unknowns);
+  // A measured state keeps its tangent, which cubics from it to others need; carried over, it is good enough for them.
+  node.tangent = carried(node.tangent, node.level, node.level + 1);
   ++node.level;
   node.unknowns = unknowns;
-  node.tangent = {};
   return true;
 }
 

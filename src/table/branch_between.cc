@@ -35,6 +35,12 @@ std::vector<double> inner_weights(const std::vector<double>& places, double at) 
   return weights;
 }
 
+std::vector<double> log_radii(Branches near) {
+  std::vector<double> places;
+  for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
+  return places;
+}
+
 /// ln(deformation) from which and up to which a branch takes part.
 struct Heights {
   double first, last;
@@ -129,8 +135,7 @@ std::vector<double> fractions_of(const SampledBranch& branch, const Heights& hei
 class Between {
  public:
   Between(const TableSpec& spec, Branches near, double radius_um) : near_(near), heights_(heights_of(spec, near)) {
-    std::vector<double> places;
-    for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
+    const std::vector<double> places = log_radii(near);
     weights_ = lagrange_weights(places, std::log(radius_um)).value;
     inner_weights_ = inner_weights(places, std::log(radius_um));
     branch_.radius_um = radius_um;
@@ -213,9 +218,7 @@ SampledBranch branch_between(const TableSpec& spec, Branches near, double radius
 }
 
 BranchDifference difference(const TableSpec& spec, Branches near, const SampledBranch& computed) {
-  std::vector<double> places;
-  for (const auto* branch : near) places.push_back(std::log(branch->radius_um));
-  const std::vector<double> weights = lagrange_weights(places, std::log(computed.radius_um)).value;
+  const std::vector<double> weights = lagrange_weights(log_radii(near), std::log(computed.radius_um)).value;
   const std::vector<Heights> heights = heights_of(spec, near);
   Heights predicted{0, 0};
   for (std::size_t k = 0; k < near.size(); ++k) {
