@@ -23,6 +23,27 @@ std::vector<double> graded(int n, double ratio) {
   return breaks;
 }
 
+/// The breaks of a few intervals, or such as lie between them for another number of intervals.
+std::vector<double> like(const std::vector<double>& breaks, int n) {
+  const int last = int(breaks.size()) - 2;
+  std::vector<double> between = uniform(n);
+  for (double& b : between) {
+    const double place = b * (last + 1);
+    const int i = std::min(int(place), last);
+    b = std::lerp(breaks[i], breaks[i + 1], place - i);
+  }
+  return between;
+}
+
+std::vector<double> front_breaks(int n, Spacing spacing) {
+  return spacing == Spacing::even ? uniform(n) : like({0, 0.35, 1}, n);
+}
+
+/// The ring lies between 0.69 (soft cells) and 0.99 (small stiff ones) of the top (docs/theory.md, sec. "Mesh").
+std::vector<double> top_breaks(int n, Spacing spacing) {
+  return spacing == Spacing::even ? uniform(n) : like({0, 0.25, 0.5, 0.7, 0.76, 0.82, 0.88, 0.94, 1}, 2 * n);
+}
+
 /// From the box to the end of the mesh: one element more where the channel is longer than it need be, and some for the
 /// way beyond it.
 std::vector<double> axial_breaks(const ChannelGeometry& geometry, int n) {
@@ -61,21 +82,21 @@ std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
   return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
 }
 
-ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision) : geometry_(geometry) {
-  const Subdivision& n = subdivision;
-  const auto front = uniform(n.front), top = uniform(n.top), ring = uniform(n.ring);
+ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& n, Spacing spacing)
+    : geometry_(geometry), front_(front_breaks(n.front, spacing)), top_(top_breaks(n.top, spacing)) {
+  const auto ring = uniform(n.ring);
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
   const auto layers = graded(layer_count, std::pow(2.0, layer_count));
   const auto axial = axial_breaks(geometry, n.axial);
-  add_block(Block::core, front, top);
-  add_block(Block::ring_front, ring, front);
-  add_block(Block::ring_top, ring, top);
-  add_block(Block::ring_rear, ring, front);
-  add_block(Block::front, layers, front);
-  add_block(Block::top, layers, top);
-  add_block(Block::rear, layers, front);
-  add_block(Block::downstream, axial, front);
-  add_block(Block::upstream, axial, front);
+  add_block(Block::core, front_, top_);
+  add_block(Block::ring_front, ring, front_);
+  add_block(Block::ring_top, ring, top_);
+  add_block(Block::ring_rear, ring, front_);
+  add_block(Block::front, layers, front_);
+  add_block(Block::top, layers, top_);
+  add_block(Block::rear, layers, front_);
+  add_block(Block::downstream, axial, front_);
+  add_block(Block::upstream, axial, front_);
 }
 
 void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along) {
@@ -84,6 +105,13 @@ void ChannelMesh::add_block(Block block, const std::vector<double>& outward, con
       elements_.push_back({block, runs_outward_first(block), {outward[i], outward[i + 1]}, {along[j], along[j + 1]}});
     }
   }
+}
+
+std::vector<double> ChannelMesh::surface_places() const {
+  std::vector<double> places = front_;
+  for (std::size_t i = 1; i < top_.size(); ++i) places.push_back(1 + 2 * top_[i]);
+  for (std::size_t i = front_.size() - 1; i-- > 0;) places.push_back(4 - front_[i]);
+  return places;
 }
 
 NodeNumbers ChannelMesh::number_nodes(int degree) const {

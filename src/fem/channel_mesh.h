@@ -18,6 +18,13 @@ struct Subdivision {
   bool operator==(const Subdivision&) const = default;
 };
 
+/// Where the elements along the surface are shorter.
+enum class Spacing {
+  even,      ///< nowhere
+  by_shear,  ///< near the poles, and where the shear rate on the surface vanishes in a ring before the rear: there the
+             ///< shear stress of a shear-thinning liquid has an infinite slope. Twice as many elements on top
+};
+
 /// As many layers of liquid as make the first one half as high as the surface's elements are wide: taller elements
 /// resolve the liquid's answer to short waves of the surface along it but not across it, and the surface then loses
 /// stability numerically, long before the solid does.
@@ -37,10 +44,13 @@ struct MeshElement {
 
 class ChannelMesh {
  public:
-  ChannelMesh(const ChannelGeometry&, const Subdivision&);
+  ChannelMesh(const ChannelGeometry&, const Subdivision&, Spacing = Spacing::even);
 
   const ChannelGeometry& geometry() const { return geometry_; }
   const std::vector<MeshElement>& elements() const { return elements_; }
+  /// Between the edges on the surface, both poles included: the front from 0 to 1, the top to 3, the rear to 4, in
+  /// proportion to the angles of the undeformed cell.
+  std::vector<double> surface_places() const;
   /// Of the Gauss-Lobatto nodes of continuous elements of one degree.
   NodeNumbers number_nodes(int degree) const;
 
@@ -48,6 +58,7 @@ class ChannelMesh {
   void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
 
   ChannelGeometry geometry_;
+  std::vector<double> front_, top_;  ///< breaks along the sectors, those of the rear being the front's
   std::vector<MeshElement> elements_;
 };
 

@@ -125,8 +125,16 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   return r;
 }
 
+namespace {
+
+Spacing spacing_for(const Liquid& liquid) {
+  return thinning(liquid) == 0 ? Spacing::even : Spacing::by_shear;
+}
+
+}  // namespace
+
 TubeDiscrete::Space::Space(const Problem& problem, const Resolution& resolution)
-    : mesh(geometry_of(problem), resolution.subdivision),
+    : mesh(geometry_of(problem), resolution.subdivision, spacing_for(problem.liquid)),
       of_mesh(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive) {}
 
 TubeDiscrete::TubeDiscrete(const Problem& problem, const Resolution& resolution)

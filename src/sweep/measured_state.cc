@@ -28,14 +28,6 @@ Eigen::MatrixX2d resampled(const Contour& contour, const std::vector<double>& en
   return points;
 }
 
-/// A top of the tube's mesh has as many edges as front and rear together, and all are alike.
-std::vector<double> ends_in_tube(const Contour& contour) {
-  const int count = int(contour.pieces.size());
-  std::vector<double> ends;
-  for (int i = 0; i <= count; ++i) ends.push_back(4.0 * i / count);
-  return ends;
-}
-
 /// Two quadrilaterals of the duct's mesh lie along the edge of a triangle.
 std::vector<double> ends_in_duct(const Problem& problem) {
   std::vector<double> ends{0, 0.5};
@@ -59,7 +51,7 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   const SurfaceState surface =
       surface_state(space, unknowns, 4 * space.reference().degree() + 1, problem.bulk.rest_stretch);
   const StateNumbers numbers = numbers_of({problem, space, unknowns}, curve, surface);
-  return {physical(numbers, scales), scales.length_um() * resampled(curve, ends_in_tube(curve))};
+  return {physical(numbers, scales), scales.length_um() * resampled(curve, space.mesh().surface_places())};
 }
 
 MeasuredState measure_state(const StationaryState& state, const Problem& problem, const Scales& scales) {

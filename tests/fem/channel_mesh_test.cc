@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
+#include <vector>
 
 #include "fem/discretisation.h"
 
@@ -10,6 +13,7 @@ namespace rheocyte::channel_mesh_test {
 namespace {
 
 constexpr std::array radius_ratios = {0.05, 0.1, 0.3, 0.5, 0.7, 0.88, 0.965};
+constexpr std::array spacings = {Spacing::even, Spacing::by_shear};
 const std::array<Subdivision, 3> subdivisions = {{{2, 4, 1, 2}, {3, 6, 1, 2}, {4, 8, 2, 2}}};
 
 /// det d(x, r)/d(xi) of the geometry itself by central differences.
@@ -24,10 +28,12 @@ TEST(ChannelMesh, EveryElementIsRightHanded) {
   // det > 0 everywhere inside, for each cell size from a twentieth of the tube to 95 %.
   for (const double ratio : radius_ratios) {
     for (const Subdivision& n : subdivisions) {
-      const ChannelMesh mesh(ChannelGeometry(ratio), n);
-      for (const MeshElement& element : mesh.elements()) {
-        for (int i = 0; i < 36; ++i) {
-          EXPECT_GT(det(mesh.geometry(), element, 0.01 + 0.196 * (i % 6), 0.01 + 0.196 * (i / 6)), 0) << ratio;
+      for (const Spacing spacing : spacings) {
+        const ChannelMesh mesh(ChannelGeometry(ratio), n, spacing);
+        for (const MeshElement& element : mesh.elements()) {
+          for (int i = 0; i < 36; ++i) {
+            EXPECT_GT(det(mesh.geometry(), element, 0.01 + 0.196 * (i % 6), 0.01 + 0.196 * (i / 6)), 0) << ratio;
+          }
         }
       }
     }
@@ -38,10 +44,12 @@ TEST(ChannelMesh, TheInterpolatedElementsAreRightHandedToo) {
   // The elements that the integrals see are polynomial images of the blocks.
   for (const double ratio : radius_ratios) {
     for (const int degree : {4, 8}) {
-      const ChannelMesh mesh(ChannelGeometry(ratio), subdivisions[0]);
-      const Discretisation space(mesh, degree, {});
-      for (const ElementUnknowns& element : space.elements()) {
-        for (const PointMap<double, 2>& map : element.undeformed) EXPECT_GT(map.det, 0) << ratio;
+      for (const Spacing spacing : spacings) {
+        const ChannelMesh mesh(ChannelGeometry(ratio), subdivisions[0], spacing);
+        const Discretisation space(mesh, degree, {});
+        for (const ElementUnknowns& element : space.elements()) {
+          for (const PointMap<double, 2>& map : element.undeformed) EXPECT_GT(map.det, 0) << ratio;
+        }
       }
     }
   }
@@ -103,6 +111,39 @@ TEST(ChannelMesh, TheFirstLayerOfLiquidIsAboutAsHighAsWideAtMost) {
       EXPECT_LT(height, 1.1 * width) << ratio;
     }
   }
+}
+
+TEST(ChannelMesh, ThePlacesOfItsEdgesOnTheSurfaceAreThoseOfTheSurfacesNodes) {
+  constexpr double ratio = 0.6;
+  for (const Spacing spacing : spacings) {
+    const ChannelMesh mesh(ChannelGeometry(ratio), subdivisions[1], spacing);
+    const Discretisation space(mesh, 4, {});
+    const std::vector<double> places = mesh.surface_places();
+    ASSERT_EQ(places.size(), space.surface().size() + 1);
+    for (std::size_t i = 0; i < space.surface().size(); ++i) {
+      const auto angle_of = [&](int node) {
+        return std::atan2(space.node_points()[node](1), space.node_points()[node](0));
+      };
+      // A place is four times the angle over pi, in each sector.
+      EXPECT_NEAR(angle_of(space.surface()[i].nodes.front()), places[i] * std::numbers::pi / 4, 1e-12);
+      EXPECT_NEAR(angle_of(space.surface()[i].nodes.back()), places[i + 1] * std::numbers::pi / 4, 1e-12);
+    }
+  }
+}
+
+TEST(ChannelMesh, ByShearTheElementsAreShortWhereTheRingIs) {
+  const Subdivision& n = subdivisions[0];
+  const ChannelGeometry geometry(0.6);
+  EXPECT_EQ(ChannelMesh(geometry, n).surface_places(), (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}));
+  const std::vector<double> places = ChannelMesh(geometry, n, Spacing::by_shear).surface_places();
+  ASSERT_EQ(places.size(), 13u);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    EXPECT_GT(places[i], places[i - 1]);
+    const bool is_in_ring = places[i - 1] > 2.39 && places[i] <= 3;
+    EXPECT_LT(places[i] - places[i - 1], is_in_ring ? 0.13 : 0.66);
+  }
+  // The rear is the front's mirror image: the core has the same breaks on both sides.
+  for (int i = 0; i <= n.front; ++i) EXPECT_NEAR(places[i] + places[places.size() - 1 - i], 4, 1e-15);
 }
 
 }  // namespace

@@ -28,7 +28,6 @@ inline Problem problem(const CellInChannel& cell, double accuracy = 1e-3) {
 inline Problem in_power_law_liquid(Problem problem) {
   problem.liquid.law = LiquidLaw::power_law;
   problem.liquid.exponent = 0.6039;
-  problem.liquid.shear_rate_floor = 0.1;  // smooth enough for reference solutions of 1e-6
   problem.liquid.reynolds = 0.2;
   return problem;
 }

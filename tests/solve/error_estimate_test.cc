@@ -39,14 +39,15 @@ TEST_P(ErrorEstimate, TheTrueErrorIsBelowTheEstimateAndTheWantedAccuracy) {
 }
 
 std::string case_name(const testing::TestParamInfo<Problem>& cell) {
-  constexpr std::array names = {"Linear", "NeoHookean", "Small", "Large", "PowerLaw"};
+  constexpr std::array names = {"Linear", "NeoHookean", "Small", "Large", "PowerLaw", "SoftPowerLaw"};
   return names[cell.index];
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, ErrorEstimate,
                          testing::Values(test::problem({6, 2.29, 0}), test::problem({7.66, 3.437, 1}),
                                          test::problem({3, 1, 1}), test::problem({8.75, 6, 0.5}),
-                                         test::in_power_law_liquid(test::problem({6, 1.75, 0}))),
+                                         test::in_power_law_liquid(test::problem({6, 1.75, 0})),
+                                         test::in_power_law_liquid(test::problem({6.3, 1.25, 1}))),
                          case_name);
 
 TEST(ErrorEstimateInANarrowGap, DoesNotTrustTwoDegreesOfTheCoarsestMesh) {
