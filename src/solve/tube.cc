@@ -127,9 +127,7 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
 
 namespace {
 
-Spacing spacing_for(const Liquid& liquid) {
-  return thinning(liquid) == 0 ? Spacing::even : Spacing::by_shear;
-}
+Spacing spacing_for(const Liquid& liquid) { return thinning(liquid) == 0 ? Spacing::even : Spacing::by_shear; }
 
 }  // namespace
 
@@ -203,9 +201,10 @@ std::shared_ptr<Discrete> tube_discrete(const Problem& problem, const Resolution
   return std::make_shared<TubeDiscrete>(problem, resolution);
 }
 
-bool have_same_layers(const Problem& a, const Problem& b, const Resolution& resolution) {
-  return layers_for(ChannelGeometry(a.radius_ratio), resolution.subdivision) ==
-         layers_for(ChannelGeometry(b.radius_ratio), resolution.subdivision);
+bool have_same_elements(const Problem& a, const Problem& b, const Resolution& resolution) {
+  return spacing_for(a.liquid) == spacing_for(b.liquid) &&
+         layers_for(ChannelGeometry(a.radius_ratio), resolution.subdivision) ==
+             layers_for(ChannelGeometry(b.radius_ratio), resolution.subdivision);
 }
 
 }  // namespace
@@ -215,7 +214,7 @@ bool have_same_layers(const Problem& a, const Problem& b, const Resolution& reso
 /// the coarse ones. Intermediate states serve as starting points only.
 Geometry tube_geometry(const Problem& problem) {
   const NewtonOptions on_the_way{.tolerance = 1e-7};
-  Geometry tube{.make = tube_discrete, .is_alike = have_same_layers};
+  Geometry tube{.make = tube_discrete, .is_alike = have_same_elements};
   tube.ways = {{{coarse, 4}}, {{coarse, 6}}, {{middle, 6}}, {{middle, 8}}};
   tube.along = tube.across = on_the_way;
   tube.along.iteration_limit = 5;

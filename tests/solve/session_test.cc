@@ -47,6 +47,19 @@ TEST(Session, ACaseFarAwayStartsFromTheSphere) {
   EXPECT_EQ(session.warm_starts(), 0);
 }
 
+TEST(Session, FromANewtonianExponentToAShearThinningOneItStartsAnew) {
+  // The elements along the surface are others: unknowns of one mean nothing in the other.
+  Problem problem = test::problem({6, 4.58, 0}, 1e-3);
+  problem.liquid = {.law = LiquidLaw::power_law, .exponent = 1};
+  Session session;
+  session.solve(problem);
+  problem.liquid.exponent = 0.98;
+  EXPECT_EQ(session.solve(problem).shape.deformation, deformation(problem));
+  problem.liquid.exponent = 0.979;
+  EXPECT_NEAR(session.solve(problem).shape.deformation / deformation(problem), 1, 1e-6);
+  EXPECT_EQ(session.warm_starts(), 1);
+}
+
 TEST(Session, AHigherAccuracyGoesOnFromTheKeptStates) {
   // The ladder of degrees is climbed on from where it ended.
   Session session;
