@@ -25,11 +25,12 @@ class CompanionFile {
   /// Free metadata, below "user:".
   void add_user_metadata(const std::string& key, const std::string& text);
 
-  /// Declares a feature with one number per event; their number is that of the original's events.
+  /// Declares a feature with one number per event, in single precision; their number is that of the original's events.
   void add_feature(const std::string& feature);
 
   /// Declares a feature whose values are those of the original. Where they can be, they are copied as they are stored
-  /// when the file is closed; those that are written before then only tell their extremes.
+  /// when the file is closed, and those that are written before then only tell their extremes. Else they are written,
+  /// in double precision if the original has them.
   void add_feature_of(const Recording& original, const std::string& feature);
 
   /// Values of events [first, first + values.size()) of a declared feature. UserError, e.g. if the disk is full.
@@ -45,6 +46,9 @@ class CompanionFile {
   void close();
 
  private:
+  template <class Number>
+  void add_numbers(const std::string& feature);
+
   struct Content;
   std::unique_ptr<Content> content_;
 };

@@ -98,9 +98,15 @@ void Extremes::add(std::span<const double> values) {
 bool write_extremes(hid_t dataset, const Extremes& extremes) {
   if (extremes.count == 0) return true;
   const double mean = extremes.sum / static_cast<double>(extremes.count);
-  const hid_t type = H5T_NATIVE_DOUBLE;
-  return write_attribute(dataset, "min", type, &extremes.least) &&
-         write_attribute(dataset, "max", type, &extremes.greatest) && write_attribute(dataset, "mean", type, &mean);
+  const Hdf5Handle type(::H5Dget_type(dataset));
+  const bool is_single = ::H5Tequal(type.get(), H5T_IEEE_F32LE) > 0;
+  const auto write = [&](const char* name, double value) {
+    const auto rounded = static_cast<float>(value);
+    return is_single ? write_attribute(dataset, name, H5T_NATIVE_FLOAT, &rounded)
+                     : write_attribute(dataset, name, H5T_NATIVE_DOUBLE, &value);
+  };
+  return write("min", extremes.least) && write("max", extremes.greatest) &&
+         write_attribute(dataset, "mean", H5T_NATIVE_DOUBLE, &mean);
 }
 
 }  // namespace rheocyte

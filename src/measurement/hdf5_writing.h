@@ -35,7 +35,8 @@ struct Extremes {
   void add(std::span<const double> values);
 };
 
-/// Attributes min, max, mean of a dataset; none if no value was finite. False if that fails.
+/// Attributes min, max, mean of a dataset, the first two as precise as its values; none if no value was finite. False
+/// if that fails.
 bool write_extremes(hid_t dataset, const Extremes&);
 
 }  // namespace rheocyte

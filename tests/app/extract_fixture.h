@@ -12,6 +12,9 @@
 
 namespace rheocyte::test {
 
+/// Greatest relative rounding of what companions hold.
+inline constexpr double single_precision = 6e-8;
+
 inline std::vector<double> column(const Recording& recording, const std::string& feature) {
   std::vector<double> values(recording.events());
   recording.read_scalar(feature, 0, values);

@@ -42,6 +42,31 @@ void write_original(const std::filesystem::path& file) {
   writer.scalar("deform", {0.1, 0.2, 0.3});
 }
 
+TEST(CompanionFile, ResultsAreWrittenInSinglePrecisionAndItsExtremesAreThoseOfTheFile) {
+  const ScratchFolder folder;
+  write_original(folder / "a.rtdc");
+  const std::vector<double> values{0.1, 1.0 / 3, NAN};
+  {
+    const Recording original(folder / "a.rtdc");
+    CompanionFile companion(folder / "b.rtdc", original, "rheocyte 1.2.3");
+    companion.add_feature("emodulus");
+    companion.write("emodulus", 0, values);
+    companion.close();
+  }
+  EXPECT_EQ(column(Recording(folder / "b.rtdc"), "emodulus")[1], 1.0F / 3);
+  const Hdf5Handle file(::H5Fopen((folder / "b.rtdc").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  const Hdf5Handle dataset(::H5Dopen2(file.get(), "events/emodulus", H5P_DEFAULT)), type(::H5Dget_type(dataset.get()));
+  EXPECT_EQ(::H5Tget_size(type.get()), sizeof(float));
+  const auto extreme = [&](const char* name) {
+    const Hdf5Handle attribute(::H5Aopen(dataset.get(), name, H5P_DEFAULT));
+    double value = 0;
+    ::H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value);
+    return value;
+  };
+  EXPECT_EQ(extreme("min"), 0.1F);
+  EXPECT_EQ(extreme("max"), 1.0F / 3);
+}
+
 TEST(CompanionFile, TogetherWithTheOriginalItIsTheWholeRecording) {
   const ScratchFolder folder;
   write_original(folder / "a.rtdc");
