@@ -53,6 +53,22 @@ EventTable::EventTable(const std::filesystem::path& file, const std::vector<std:
 }
 
 void EventTable::append(std::span<const std::span<const double>> values) {
+  std::vector<std::vector<double>> kept;
+  for (const auto& column : values) kept.emplace_back(column.begin(), column.end());
+  writing_.add([this, kept = std::move(kept)] { write(kept); });
+}
+
+void EventTable::remark(const std::vector<std::string>& remarks) {
+  writing_.finish();
+  file_.append(commented(remarks));
+}
+
+void EventTable::close() {
+  writing_.finish();
+  file_.close();
+}
+
+void EventTable::write(std::span<const std::vector<double>> values) {
   std::vector<char> line(longest_cell * (columns_.size() + 2));
   text_.clear();
   for (std::size_t i = 0; i < values.front().size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "extract/event_column.h"
 #include "store/file_writer.h"
+#include "store/work_in_turn.h"
 
 namespace rheocyte {
 
@@ -22,28 +23,31 @@ std::string_view mark_of_events(const std::filesystem::path& file);
 /// The remarks in lines of their own, each behind "# ".
 std::string commented(const std::vector<std::string>& remarks);
 
-/// Writes tab-separated lines, the number of the event first.
+/// Writes tab-separated lines, the number of the event first. Another thread makes the text.
 class EventTable {
  public:
   /// `remarks` go below the columns' names. UserError.
   EventTable(const std::filesystem::path& file, const std::vector<std::string>& remarks,
              std::vector<ColumnDescription> columns);
 
-  /// Appends events, of which each column has a value; the first one ever has number 1. UserError, e.g. if the disk is
-  /// full.
+  /// Appends events, of which each column has a value; the first one ever has number 1. UserError of events before,
+  /// e.g. if the disk is full.
   void append(std::span<const std::span<const double>> values);
 
   /// Below the events so far. UserError.
-  void remark(const std::vector<std::string>& remarks) { file_.append(commented(remarks)); }
+  void remark(const std::vector<std::string>& remarks);
 
   /// UserError if not everything could be written.
-  void close() { file_.close(); }
+  void close();
 
  private:
+  void write(std::span<const std::vector<double>> values);
+
   FileWriter file_;
   std::string text_;
   std::vector<ColumnDescription> columns_;
   std::size_t events_ = 0;
+  WorkInTurn writing_;  // the last member: it ends before what it writes to
 };
 
 }  // namespace rheocyte

@@ -1,0 +1,42 @@
+// Pieces of work that another thread does in turn, while whoever gives them goes on.
+#pragma once
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+
+#include "store/thread.h"
+
+namespace rheocyte {
+
+class WorkInTurn {
+ public:
+  using Piece = std::function<void()>;
+
+  WorkInTurn() = default;
+  /// Waits for the piece at hand; those that wait are dropped.
+  ~WorkInTurn();
+  WorkInTurn(const WorkInTurn&) = delete;
+  WorkInTurn& operator=(const WorkInTurn&) = delete;
+
+  /// Does the piece after those before it, by itself where the system has no thread for it. Waits while two pieces
+  /// wait. Throws what an earlier piece has thrown; then no other one is done any more.
+  void add(Piece piece);
+  /// Waits until all are done. Throws likewise.
+  void finish();
+
+ private:
+  void begin();
+  void work();
+  void check() const;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Piece> waiting_;
+  bool is_busy_ = false, ends_ = false, has_begun_ = false, is_in_place_ = !has_threads;
+  std::exception_ptr failure_;
+  Thread thread_;  // the last member: it is joined before the others go
+};
+
+}  // namespace rheocyte
