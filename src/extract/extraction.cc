@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t block_of_scalars = 1 << 15;   // its columns stay in fast memory; chunks of 1 MiB are kept by HDF5
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
+/// Of a block, whose moduli by another table tell more than enough of how far the two tables differ.
+constexpr std::size_t most_compared = 1 << 12;
 
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
@@ -55,10 +57,10 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
 }
 
 void Extraction::Columns::resize(std::size_t count) {
-  for (auto* const column : {&area, &deformation, &viscosity, &modulus, &standard_error, &other_modulus})
-    column->resize(count);
+  for (auto* const column : {&area, &deformation, &viscosity, &modulus, &standard_error}) column->resize(count);
   states.resize(count);
-  other_states.resize(count);
+  other_modulus.resize(std::min(count, most_compared));
+  other_states.resize(other_modulus.size());
 }
 
 std::size_t Extraction::block() const {
@@ -75,8 +77,11 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
   const MeasuredEvents events{c.area, c.deformation, c.viscosity};
   if (other_table_) {
+    const std::size_t compared = c.other_modulus.size();
+    const auto of_some = [&](std::span<const double> column) { return column.first(compared); };
     // Its standard errors are overwritten by those that count.
-    other_table_->estimate(settings_.conditions, events, {c.other_modulus, c.standard_error, c.other_states});
+    other_table_->estimate(settings_.conditions, {of_some(c.area), of_some(c.deformation), of_some(c.viscosity)},
+                           {c.other_modulus, std::span(c.standard_error).first(compared), c.other_states});
   }
   table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
   const Moduli moduli{c.modulus, c.standard_error, c.states};
@@ -275,7 +280,7 @@ void Extraction::apply_gates(std::size_t first) {
 void Extraction::take_modulus(std::size_t i) {
   moduli_.push_back(columns_.modulus[i]);
   if (table().is_rheocyte_table()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
-  if (!other_table_ || !has_modulus(columns_.other_states[i])) return;
+  if (!other_table_ || i >= columns_.other_states.size() || !has_modulus(columns_.other_states[i])) return;
   log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
   ++compared_;
 }
