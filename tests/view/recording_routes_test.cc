@@ -263,7 +263,7 @@ TEST_F(RecordingRoutes, TellAnEventFromTheFileAndTheModuliAsTheyAreNow) {
   ASSERT_EQ(moduli({{"viscosity_mPas", 30}})["state"], "ready");
   const Json after = json("GET", "/api/items/0/events/3");
   EXPECT_GT(after["young_modulus_kPa"].get<double>(), before["young_modulus_kPa"].get<double>());
-  EXPECT_EQ(after["features"]["emodulus"], after["young_modulus_kPa"]);
+  EXPECT_EQ(after["features"]["emodulus"].get<float>(), after["young_modulus_kPa"].get<float>());
   write_over("cells.rtdc", 10, 1);
   EXPECT_EQ(ask("GET", "/api/items/0/events/15").status, 400);
 }
