@@ -132,7 +132,7 @@ class RecordingInTheView(unittest.TestCase):
     def test_an_event_has_its_modulus_its_picture_and_a_case(self):
         event = next(i for i, state in enumerate(self.rows["state"]) if state == "valid")
         told = self.view.json("GET", f"/api/items/1/events/{event}")
-        self.assertEqual(*(list(single([modulus])) for modulus in (told["young_modulus_kPa"], self.columns("emodulus")[0][event])))
+        self.assertEqual(single([told["young_modulus_kPa"]]), single([self.columns("emodulus")[0][event]]))
         self.assertLess(told["model"]["residual_rms_um"], 0.34)
         width, height, mask = pixels_of(self.view.ask("GET", f"/api/items/1/events/{event}/mask")[2])
         self.assertEqual(told["image_size"], {"width": width, "height": height})
