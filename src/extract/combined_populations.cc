@@ -121,10 +121,10 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
     more_events_help |= !is_told(e) && std::sqrt(e.mean.variance) > e.common_error;
   }
   if (!combined.not_told.empty())
-    r.warnings.push_back(fmt::format("bulk and cortex are not told apart, because {}; what is told is {}.",
+    r.warnings.push_back(fmt::format("bulk and cortex are not told apart, because {}; what is known is {}.",
                                      combined.not_told, told.empty() ? "nothing" : listed(told)));
   if (!unknown.empty())
-    r.warnings.push_back(fmt::format("{} {} not told: known to no better than {:.0f} %{}", listed(unknown),
+    r.warnings.push_back(fmt::format("{} {} not given: known to no better than {:.0f} %{}", listed(unknown),
                                      are(unknown), 100 * most_relative_error,
                                      more_events_help ? "; more events help." : " by the table."));
   r.log_radius = found.law.mean(0);
@@ -219,7 +219,7 @@ CombinedPopulations::CombinedPopulations(const PopulationOptions& options)
       moduli_(table_.between, table_.simulated, {features_of_contour(last_fitted_mode), true, 0}) {
   if (!options.by.empty() && options.by != "asymmetry")
     throw UserError(
-        fmt::format("rheocyte: --by {} and --model cortex contradict each other: bulk and cortex are told by "
+        fmt::format("rheocyte: --by {} and --model cortex contradict each other: bulk and cortex follow from "
                     "the whole outline. Leave --by out.",
                     options.by));
   if (!table_.between.is_elongated() || table_.between.tension_ratios().size() < 2)

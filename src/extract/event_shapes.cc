@@ -42,8 +42,8 @@ EventShapes::EventShapes(const Recording& recording, const MeasuringConditions& 
   inertia_ratio_from_ = has_ratio ? stored_ratio : recording.has_contours() ? "contour" : "mask";
   if (!has_outlines)
     missing_ =
-        "the recording has neither contours nor masks: the modulus of elongated cells is told by area, deformation and "
-        "inertia ratio, less accurately than by the outlines.";
+        "the recording has neither contours nor masks: the modulus of elongated cells follows from area, deformation "
+        "and inertia ratio, less accurately than from the outlines.";
   else if (!tables.elongated)
     missing_ =
         "there is no table of elongated cells for this channel: moduli are those of cells that nothing but the flow "

@@ -163,7 +163,7 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
     refuse_path(
         file,
         "has neither contours nor masks nor inertia ratios (inert_ratio_cvx), so nobody knows how elongated its "
-        "cells are; E of a population cannot be told from it.");
+        "cells are; E of a population cannot be found from it.");
   return events_by<StoredReader>(recording, options, by, report_progress);
 }
 

@@ -180,12 +180,12 @@ Settings settings_of(PopulationOptions& o) {
            "MODEL", {"solid", "cortex"},
            setting("model", "Cells", &o.model,
                    "what the cells are: solid, or cortex, solids in a shell under tension, drawn out by one tension "
-                   "of the liquid, of which bulk, cortex and tensions are told",
+                   "of the liquid, for which bulk, cortex and tensions are found",
                    "solid")),
        seen_section(o.section),
        of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
                setting("by", "By", &o.by,
-                       "what tells the stiffness beside the area: asymmetry of the outline; odd-deformation, "
+                       "from what the stiffness follows, beside the area: asymmetry of the outline; odd-deformation, "
                        "deformation and inertia ratio; or deformation, of cells that the flow alone elongates",
                        "asymmetry")),
        setting("paired", "Paired", &o.paired,
