@@ -56,11 +56,11 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
   if (table_.is_rheocyte_table()) standard_errors_.reserve(recording.events());
 }
 
-void Extraction::Columns::resize(std::size_t count) {
+void Extraction::Columns::resize(std::size_t count, std::size_t compared) {
   for (auto* const column : {&area, &deformation, &viscosity, &modulus, &standard_error}) column->resize(count);
   states.resize(count);
-  other_modulus.resize(std::min(count, most_compared));
-  other_states.resize(other_modulus.size());
+  other_modulus.resize(compared);
+  other_states.resize(compared);
 }
 
 std::size_t Extraction::block() const {
@@ -72,12 +72,12 @@ std::size_t Extraction::block() const {
 
 EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   Columns& c = columns_;
-  c.resize(count);
+  const std::size_t compared = other_table_ ? std::min(count, most_compared) : 0;
+  c.resize(count, compared);
   shapes_.read(first, c.area, c.deformation);
   outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
   const MeasuredEvents events{c.area, c.deformation, c.viscosity};
   if (other_table_) {
-    const std::size_t compared = c.other_modulus.size();
     const auto of_some = [&](std::span<const double> column) { return column.first(compared); };
     // Its standard errors are overwritten by those that count.
     other_table_->estimate(settings_.conditions, {of_some(c.area), of_some(c.deformation), of_some(c.viscosity)},
@@ -280,7 +280,7 @@ void Extraction::apply_gates(std::size_t first) {
 void Extraction::take_modulus(std::size_t i) {
   moduli_.push_back(columns_.modulus[i]);
   if (table().is_rheocyte_table()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
-  if (!other_table_ || i >= columns_.other_states.size() || !has_modulus(columns_.other_states[i])) return;
+  if (i >= columns_.other_states.size() || !has_modulus(columns_.other_states[i])) return;
   log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
   ++compared_;
 }

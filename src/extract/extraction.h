@@ -53,7 +53,7 @@ class Extraction {
     std::vector<ModulusState> states, other_states;
     ShapeColumns shapes;
     std::vector<char> inside;  ///< the gates
-    void resize(std::size_t count);
+    void resize(std::size_t count, std::size_t compared);
   };
 
   std::string comparison() const;

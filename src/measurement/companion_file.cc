@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <map>
-#include <type_traits>
 
 #include "measurement/basin.h"
 #include "measurement/hdf5_reading.h"
@@ -95,6 +94,18 @@ bool copy_original(CompanionFeature& feature, WrittenFile& file, const std::stri
 struct CompanionFile::Content {
   Content(const fs::path& path, std::size_t count) : file(path), events(count) {}
 
+  /// Declares numbers of a type of the file.
+  void add(const std::string& feature, hid_t type) {
+    const hsize_t extent = events, unlimited = H5S_UNLIMITED;
+    const hsize_t chunk = std::clamp<hsize_t>(extent, 10, written_chunk_bytes / ::H5Tget_size(type));
+    const Hdf5Handle space(::H5Screate_simple(1, &extent, &unlimited)), properties = compressed({&chunk, 1});
+    const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
+    ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
+    CompanionFeature& added = features[feature];
+    added.dataset = file.dataset("events/" + feature, type, space.get(), properties.get(), access.get());
+    file.check(bool(added.dataset), feature);
+  }
+
   WrittenFile file;
   std::size_t events;
   std::map<std::string, CompanionFeature> features;
@@ -121,26 +132,11 @@ void CompanionFile::add_user_metadata(const std::string& key, const std::string&
   content_->file.check(write_text(content_->file.get(), name, text), name);
 }
 
-template <class Number>
-void CompanionFile::add_numbers(const std::string& feature) {
-  constexpr bool is_single = std::is_same_v<Number, float>;
-  Content& c = *content_;
-  const hsize_t extent = c.events, unlimited = H5S_UNLIMITED;
-  const hsize_t chunk = std::clamp<hsize_t>(extent, 10, written_chunk_bytes / sizeof(Number));
-  const Hdf5Handle space(::H5Screate_simple(1, &extent, &unlimited)), properties = compressed({&chunk, 1});
-  const Hdf5Handle access(::H5Pcreate(H5P_DATASET_ACCESS));
-  ::H5Pset_chunk_cache(access.get(), 521, 4 * written_chunk_bytes, 1.0);
-  CompanionFeature& added = c.features[feature];
-  added.dataset = c.file.dataset("events/" + feature, is_single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space.get(),
-                                 properties.get(), access.get());
-  c.file.check(bool(added.dataset), feature);
-}
-
-void CompanionFile::add_feature(const std::string& feature) { add_numbers<float>(feature); }
+void CompanionFile::add_feature(const std::string& feature) { content_->add(feature, H5T_IEEE_F32LE); }
 
 void CompanionFile::add_feature_of(const Recording& original, const std::string& feature) {
   const auto dataset = original.compressed_scalar(feature);
-  if (!dataset) return original.has_scalar(feature) ? add_numbers<double>(feature) : add_feature(feature);
+  if (!dataset) return content_->add(feature, original.has_scalar(feature) ? H5T_IEEE_F64LE : H5T_IEEE_F32LE);
   ::H5Iinc_ref(*dataset);
   content_->features[feature].original = Hdf5Handle(*dataset);
 }

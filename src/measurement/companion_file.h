@@ -46,9 +46,6 @@ class CompanionFile {
   void close();
 
  private:
-  template <class Number>
-  void add_numbers(const std::string& feature);
-
   struct Content;
   std::unique_ptr<Content> content_;
 };

@@ -14,6 +14,8 @@
 namespace rheocyte {
 namespace {
 
+Spacing spacing_for(const Liquid& liquid) { return thinning(liquid) == 0 ? Spacing::even : Spacing::by_shear; }
+
 void read_flow(const StateView& state, StateNumbers& r) {
   const ChannelGeometry& geometry = state.space.mesh().geometry();
   const double half = geometry.half_length();
@@ -124,12 +126,6 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.stability_margin = stability_margin(state.problem, state.problem.radius_ratio, {r.biot_ratio, r.min_tension});
   return r;
 }
-
-namespace {
-
-Spacing spacing_for(const Liquid& liquid) { return thinning(liquid) == 0 ? Spacing::even : Spacing::by_shear; }
-
-}  // namespace
 
 TubeDiscrete::Space::Space(const Problem& problem, const Resolution& resolution)
     : mesh(geometry_of(problem), resolution.subdivision, spacing_for(problem.liquid)),

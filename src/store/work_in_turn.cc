@@ -12,6 +12,15 @@ constexpr std::size_t most_waiting = 2;
 
 }  // namespace
 
+WorkInTurn::WorkInTurn() {
+  if (is_in_place_) return;
+  try {
+    thread_ = Thread([this](const std::stop_token&) { work(); }, small_stack);
+  } catch (const SystemLimit&) {
+    is_in_place_ = true;
+  }
+}
+
 WorkInTurn::~WorkInTurn() {
   {
     const std::lock_guard lock(mutex_);
@@ -25,17 +34,7 @@ void WorkInTurn::check() const {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-void WorkInTurn::begin() {
-  if (std::exchange(has_begun_, true) || is_in_place_) return;
-  try {
-    thread_ = Thread([this](const std::stop_token&) { work(); }, small_stack);
-  } catch (const SystemLimit&) {
-    is_in_place_ = true;
-  }
-}
-
 void WorkInTurn::add(Piece piece) {
-  begin();
   if (is_in_place_) return piece();
   {
     std::unique_lock lock(mutex_);

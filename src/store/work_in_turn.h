@@ -14,7 +14,7 @@ class WorkInTurn {
  public:
   using Piece = std::function<void()>;
 
-  WorkInTurn() = default;
+  WorkInTurn();
   /// Waits for the piece at hand; those that wait are dropped.
   ~WorkInTurn();
   WorkInTurn(const WorkInTurn&) = delete;
@@ -27,14 +27,13 @@ class WorkInTurn {
   void finish();
 
  private:
-  void begin();
   void work();
   void check() const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Piece> waiting_;
-  bool is_busy_ = false, ends_ = false, has_begun_ = false, is_in_place_ = !has_threads;
+  bool is_busy_ = false, ends_ = false, is_in_place_ = !has_threads;
   std::exception_ptr failure_;
   Thread thread_;  // the last member: it is joined before the others go
 };

@@ -53,7 +53,7 @@ TEST(WorkInTurn, WhatWaitsIsDroppedWhenItGoes) {
   EXPECT_LE(ended, 5);
 }
 
-TEST(WorkInTurn, WithoutWorkItHasNoThread) {
+TEST(WorkInTurn, WithoutWorkThereIsNothingToWaitFor) {
   WorkInTurn work;
   work.finish();
 }
