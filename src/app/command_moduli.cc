@@ -28,6 +28,7 @@ class ModuliJob {
 
   int run() {
     const auto tasks = tasks_of(options_.batch);
+    threads_ = threads_for_each(options_.batch, tasks.size());
     return run_batch(tasks, options_.batch, options_.measuring.patience_s.value_or(default_patience_s), *this);
   }
 
@@ -39,7 +40,7 @@ class ModuliJob {
 
   ModuliSummary work(const RecordingTask& task, const AtomicFile& file, const TellProgress& report_progress) const {
     ModuliText text(file.scratch());
-    return moduli_of_recording(task.recording, options_, table_, text, report_progress);
+    return moduli_of_recording(task.recording, options_, table_, threads_, text, report_progress);
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
@@ -66,6 +67,7 @@ class ModuliJob {
 
   const ModuliOptions& options_;
   ModuliTable table_;
+  int threads_ = 1;  ///< for each recording
 };
 
 }  // namespace

@@ -47,7 +47,8 @@ void declare_jobs(CLI::App& command, BatchOptions& options) {
   command
       .add_option(
           "-j,--jobs", options.jobs,
-          "recordings that are read at once; default: as many as there are processors. Results do not depend on it")
+          "recordings that are read at once, with fewer of them the threads that `moduli` shares each among; default: "
+          "as many as there are processors. Results do not depend on it")
       ->check(CLI::Range(1, 1024));
 }
 

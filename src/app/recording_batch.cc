@@ -37,6 +37,11 @@ int jobs_at_once(const BatchOptions& options) {
   return options.jobs > 0 ? options.jobs : std::max(1, allowed_processors());
 }
 
+int threads_for_each(const BatchOptions& options, std::size_t recordings) {
+  const int jobs = jobs_at_once(options);
+  return jobs / int(std::clamp(recordings, std::size_t{1}, std::size_t(jobs)));
+}
+
 std::vector<RecordingTask> tasks_of(const BatchOptions& options) {
   RecordingList list = list_recordings(options);
   if (!list.passed_over.empty() && !options.quiet) tell(passed_over_text(list.passed_over));

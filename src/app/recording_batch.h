@@ -1,6 +1,7 @@
 // One call of a command on many recordings: each is read in a process of its own, so that a damaged one ends nothing
 // but itself.
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -55,6 +56,8 @@ auto read_isolated(const std::filesystem::path& recording, const MeasuringOption
 
 /// As many as the options say, or the machine has processors.
 int jobs_at_once(const BatchOptions&);
+/// Threads that are left for each of so many recordings.
+int threads_for_each(const BatchOptions&, std::size_t recordings);
 
 /// The recordings of one call: some are read at once, and told of in their order. See run_batch.
 template <class Job>

@@ -19,6 +19,7 @@
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 #include "store/build_info.h"
+#include "store/tasks.h"
 
 namespace rheocyte {
 
@@ -32,9 +33,10 @@ constexpr std::size_t wanted_for_survey = 200, survey_block = 16;
 class Fits {
  public:
   /// `goes_on` is called from event to event.
-  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table,
+  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table, int threads,
        std::function<void()> goes_on)
       : goes_on_(std::move(goes_on)),
+        threads_(threads),
         events_(recording, options.measuring, use_of_outlines),
         simulated_exponent_(table.simulated.exponent),
         section_(table.section_of(recording, options.section)),
@@ -97,14 +99,19 @@ class Fits {
     seen_.clear();
     for (std::size_t i = 0; i < count; ++i) seen_.push_back(events_.shape(first + i));
     compare(seen_);
-    estimates_.clear();
     const auto viscosity = events_.viscosity_mPas();
+    estimates_.assign(count, gated());
+    Tasks fits;
+    for (std::size_t i = 0; i < count; ++i)
+      if (events_.is_inside(i))
+        fits.add(0, [this, i, viscosity](int thread) {
+          if (thread == 0) goes_on_();
+          estimates_[i] = moduli_.fit(seen_[i], viscosity[i]);
+        });
+    fits.run(threads_);
     for (std::size_t i = 0; i < count; ++i) {
-      goes_on_();
-      const ModuliEstimate& estimate =
-          estimates_.emplace_back(events_.is_inside(i) ? moduli_.fit(seen_[i], viscosity[i]) : gated());
-      tally_.take(estimate);
-      if (axial_.is_of_elongated_cells && has_cell(estimate)) slopes_.take(seen_[i], estimate.cell);
+      tally_.take(estimates_[i]);
+      if (axial_.is_of_elongated_cells && has_cell(estimates_[i])) slopes_.take(seen_[i], estimates_[i].cell);
     }
     return {seen_, viscosity, estimates_, excess_, solids_values_.block()};
   }
@@ -221,6 +228,7 @@ class Fits {
   }
 
   std::function<void()> goes_on_;
+  int threads_;
   OutlinedEvents events_;
   int direction_ = 0;
   double simulated_exponent_;
@@ -247,11 +255,11 @@ class Fits {
 }  // namespace
 
 ModuliSummary moduli_of_recording(const std::filesystem::path& path, const ModuliOptions& options,
-                                  const ModuliTable& table, ModuliConsumer& consumer,
+                                  const ModuliTable& table, int threads, ModuliConsumer& consumer,
                                   const TellProgress& report_progress) {
   Recording recording(path);
   EventPass pass(recording, report_progress);
-  Fits fits(recording, options, table, pass.goes_on());
+  Fits fits(recording, options, table, threads, pass.goes_on());
   fits.survey(recording, options);
   consumer.begin(recording, fits.remarks(options));
   pass.in_blocks(events_between_progress,

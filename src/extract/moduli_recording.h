@@ -26,9 +26,10 @@ class ModuliConsumer {
 };
 
 /// Tells the consumer of each event: E, E2D, tension, stiffness with standard errors, chi2, status. UserError for what
-/// is wrong with the recording, which must have contours or masks, and of the consumer.
+/// is wrong with the recording, which must have contours or masks, and of the consumer. The cells of a block are shared
+/// by up to so many threads; results do not depend on it.
 ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
-                                  const ModuliTable& table, ModuliConsumer& consumer,
+                                  const ModuliTable& table, int threads, ModuliConsumer& consumer,
                                   const TellProgress& report_progress);
 
 /// The text table.

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <thread>
 
 #include "extract/population_recordings.h"
+#include "store/thread.h"
 
 namespace rheocyte {
 namespace {
@@ -56,7 +56,7 @@ void tell_quantities(RecordingReport& r) {
 SolidPopulations::SolidPopulations(const PopulationOptions& options)
     : maps_(stiffness_measure_of(options), options.table),
       no_bins_(options.no_bins),
-      threads_(int(options.jobs.value_or(std::thread::hardware_concurrency()))) {}
+      threads_(int(options.jobs.value_or(processors()))) {}
 
 std::string SolidPopulations::systematic_errors(std::span<const RecordingReport>) const {
   return fmt::format(

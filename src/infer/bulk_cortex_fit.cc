@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -162,7 +163,11 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
       return coordinate == x_fraction || coordinate == x_ratio ? beyond(coordinate) : 0;
     };
     const auto farthest = std::ranges::max_element(free, {}, outside);
-    if (outside(*farthest) == 0) return {cell, 2 * summary.final_cost};
+    if (outside(*farthest) == 0) {
+      // Without a cortex no ratio is better than another, and errors depend on it.
+      if (options_.free_tension && cell(x_fraction) == 0) cell(x_ratio) = middle_ratio();
+      return {cell, 2 * summary.final_cost};
+    }
     cell(*farthest) = held(*farthest);
     free.erase(farthest);
   }
@@ -224,6 +229,10 @@ ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow&
   return estimate;
 }
 
+double BulkCortexFit::middle_ratio() const {
+  return std::midpoint(table_.box().least(x_ratio), table_.box().greatest(x_ratio));
+}
+
 CellCoordinates BulkCortexFit::start_for(const MeasuredShape& shape) const {
   const CellBox& box = table_.box();
   CellCoordinates start = CellCoordinates::Zero();
@@ -234,7 +243,7 @@ CellCoordinates BulkCortexFit::start_for(const MeasuredShape& shape) const {
   start(x_radius) =
       shape.size_is_volume ? (size - std::log(4 * std::numbers::pi / 3)) / 3 : (size - std::log(std::numbers::pi)) / 2;
   start(x_progress) = std::log(std::max(progress, 1.01 * std::exp(box.least(x_progress))));
-  start(x_ratio) = options_.free_tension ? (box.least(x_ratio) + box.greatest(x_ratio)) / 2 : options_.tension_ratio;
+  start(x_ratio) = options_.free_tension ? middle_ratio() : options_.tension_ratio;
   start(x_axial) = feature(mode_2);  // of a solid 3/4 of the ratio at first
   return start.cwiseMax(box.least).cwiseMin(box.greatest);
 }
@@ -297,16 +306,19 @@ ModuliEstimate BulkCortexFit::estimate_of(ModuliMisfit& misfit, const Candidate&
   e.chi_squared = best.chi_squared;
   e.freedom = freedom();
   for (const Modulus m : all_moduli) e.is_known[std::size_t(m)] = e.error(m) <= max_relative_error * e.value(m);
-  if (std::ranges::count(e.is_known, true) > 0) forget_what_others_deny(profile(misfit, best), e);
-  bool all_known = true;
-  for (const Modulus m : all_moduli)
-    if (m != Modulus::tension || options_.free_tension) all_known = all_known && e.is_known[std::size_t(m)];
   const double freedom = std::max(e.freedom, 0);
-  e.status = all_known ? ModuliStatus::resolved : ModuliStatus::not_told_apart;
-  if (best.chi_squared > freedom + 3 * std::sqrt(2 * freedom) + 9) e.status = ModuliStatus::poor_fit;
   if (!state.inside || (best.cell - table_.box().least).minCoeff() < -1e-9 ||
-      (table_.box().greatest - best.cell).minCoeff() < -1e-9)
+      (table_.box().greatest - best.cell).minCoeff() < -1e-9) {
     e.status = ModuliStatus::outside_table;
+  } else if (best.chi_squared > freedom + 3 * std::sqrt(2 * freedom) + 9) {
+    e.status = ModuliStatus::poor_fit;
+  } else {
+    if (std::ranges::count(e.is_known, true) > 0) forget_what_others_deny(profile(misfit, best), e);
+    const bool are_all_known = std::ranges::all_of(all_moduli, [&](Modulus m) {
+      return e.is_known[std::size_t(m)] || (m == Modulus::tension && !options_.free_tension);
+    });
+    e.status = are_all_known ? ModuliStatus::resolved : ModuliStatus::not_told_apart;
+  }
   return e;
 }
 

@@ -108,6 +108,7 @@ class BulkCortexFit {
   using Covariance = Eigen::Matrix<double, coordinate_count, coordinate_count>;
   /// In the table's channel and flow.
   ModuliMisfit misfit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension) const;
+  double middle_ratio() const;  ///< of the table's tensions
   CellCoordinates start_for(const MeasuredShape& shape) const;
   /// The start at which the features fit best of some whose stiffnesses differ, with the tension that is known.
   static CellCoordinates with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start);

@@ -42,14 +42,14 @@ ModuliMisfit::ModuliMisfit(const CombinedInterpolation& table, MeasuredShape sha
 void ModuliMisfit::set_free(std::vector<int> free, const CellCoordinates& cell) {
   free_ = std::move(free);
   cell_ = cell;
-  last_progress_ = cell(x_progress);
+  last_ = {cell, table_.at(cell)};
   if (follows_tension_) std::erase(free_, x_axial);
 }
 
 Eigen::VectorXd ModuliMisfit::parameters() const {
   Eigen::VectorXd parameters(NumParameters());
   for (std::size_t i = 0; i < free_.size(); ++i) parameters(Eigen::Index(i)) = cell_(free_[i]);
-  if (table_.is_elongated()) parameters(progress_parameter()) = table_.at(cell_).value(log_stiffness_row);
+  if (table_.is_elongated()) parameters(progress_parameter()) = last_.state.value(log_stiffness_row);
   return parameters;
 }
 
@@ -69,9 +69,7 @@ ModuliMisfit::Place ModuliMisfit::place(const double* parameters) const {
     place.cell(x_axial) = 1e-3 * tension_.value_Pa * std::exp(-log_stiffness);
     place.by_parameters(x_axial, progress) = -place.cell(x_axial);
   }
-  place.cell(x_progress) = last_progress_;
   place.state = meet_stiffness(log_stiffness, place.cell);
-  last_progress_ = place.cell(x_progress);
   // d ln S = gradient . d cell, solved for the progress.
   const Eigen::RowVectorXd gradient = place.state.gradient.row(log_stiffness_row);
   place.by_parameters(x_progress, progress) = 0;
@@ -81,15 +79,26 @@ ModuliMisfit::Place ModuliMisfit::place(const double* parameters) const {
   return place;
 }
 
-// By Newton's method: the stiffness falls nearly in proportion to one over the progress.
+// By Newton's method: the stiffness falls nearly in proportion to one over the progress. The last step changes the
+// state to first order, which leaves the square of the tolerance.
 CombinedState ModuliMisfit::meet_stiffness(double log_stiffness, CellCoordinates& cell) const {
   constexpr int most_steps = 20;
-  constexpr double tolerance = 1e-9, flattest = -0.3;
-  for (int step = 0;; ++step) {
-    const CombinedState state = table_.at(cell);
+  constexpr double tolerance = 1e-5, flattest = -0.3;
+  const auto step = [&](const CombinedState& state, double less = 0) {
     const double slope = std::min(state.gradient(log_stiffness_row, x_progress), flattest);
-    const double change = (log_stiffness - state.value(log_stiffness_row)) / slope;
-    if (std::abs(change) < tolerance || step == most_steps) return state;
+    return (log_stiffness - state.value(log_stiffness_row) - less) / slope;
+  };
+  cell(x_progress) = last_.cell(x_progress);
+  cell(x_progress) += step(last_.state, last_.state.gradient.row(log_stiffness_row).dot(cell - last_.cell));
+  for (int k = 0;; ++k) {
+    CombinedState state = table_.at(cell);
+    const double change = step(state);
+    if (std::abs(change) < tolerance || k == most_steps) {
+      cell(x_progress) += change;
+      state.value += change * state.gradient.col(x_progress);
+      last_ = {cell, state};
+      return state;
+    }
     cell(x_progress) += change;
   }
 }

@@ -54,7 +54,7 @@ class ModuliMisfit {
   };
   Place place(const double* parameters) const;
   Eigen::Index progress_parameter() const { return std::ranges::find(free_, x_progress) - free_.begin(); }
-  /// Moves the progress there; the state.
+  /// Moves the progress there, from where the last cell lets expect it; the state.
   CombinedState meet_stiffness(double log_stiffness, CellCoordinates& cell) const;
   Eigen::VectorXd evaluate(const CellCoordinates& cell, const CombinedState& state, Jacobian& jacobian) const;
 
@@ -73,7 +73,11 @@ class ModuliMisfit {
   Eigen::MatrixXd whitening_;
   std::vector<int> free_;
   CellCoordinates cell_ = CellCoordinates::Zero();
-  mutable double last_progress_ = 0;  ///< where the next search begins
+  struct Last {
+    CellCoordinates cell;
+    CombinedState state;
+  };
+  mutable Last last_;  ///< where the next search begins
 };
 
 }  // namespace rheocyte

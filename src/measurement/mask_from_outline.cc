@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace rheocyte {
@@ -12,19 +13,19 @@ bool fill_mask(const Eigen::MatrixX2d& outline, ImageSize size, std::span<std::u
   if (!(low.minCoeff() >= 0) || !(high.x() <= static_cast<double>(size.width - 1)) ||
       !(high.y() <= static_cast<double>(size.height - 1)))
     return false;
-  std::vector<double> crossings;
-  for (auto y = static_cast<std::size_t>(std::ceil(low.y())); static_cast<double>(y) <= high.y(); ++y) {
-    const auto row = static_cast<double>(y);
-    crossings.clear();
-    for (Eigen::Index i = 0; i < outline.rows(); ++i) {
-      const auto a = outline.row(i), b = outline.row((i + 1) % outline.rows());
-      if ((a.y() <= row) == (b.y() <= row)) continue;  // a point on the row counts once
-      crossings.push_back(a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-    }
-    std::ranges::sort(crossings);
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-      for (auto x = static_cast<std::size_t>(std::ceil(crossings[k])); static_cast<double>(x) <= crossings[k + 1]; ++x)
-        mask[y * size.width + x] = 1;
+  std::vector<std::pair<std::size_t, double>> crossings;  // of edges with rows: the row, x
+  for (Eigen::Index i = 0; i < outline.rows(); ++i) {
+    const auto a = outline.row(i), b = outline.row((i + 1) % outline.rows());
+    const auto [lower, upper] = std::minmax({a.y(), b.y()});
+    // A point on a row counts once.
+    for (auto y = static_cast<std::size_t>(std::ceil(lower)); static_cast<double>(y) < upper; ++y)
+      crossings.emplace_back(y, a.x() + (static_cast<double>(y) - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+  }
+  std::ranges::sort(crossings);
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    const auto [y, first] = crossings[k];
+    for (auto x = static_cast<std::size_t>(std::ceil(first)); static_cast<double>(x) <= crossings[k + 1].second; ++x)
+      mask[y * size.width + x] = 1;
   }
   return true;
 }

@@ -11,6 +11,7 @@
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "store/thread.h"
 
 namespace rheocyte {
 
@@ -37,7 +38,8 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
            const ModuliTable table(options);
            const auto work = [&](const TellProgress& report_progress) -> GatheredEvents {
              GatheredModuli gathered;
-             const auto summary = moduli_of_recording(recording, options, table, gathered, report_progress);
+             const auto summary =
+                 moduli_of_recording(recording, options, table, processors(), gathered, report_progress);
              return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings};
            };
            return read_isolated(recording, options.measuring, work, progress, stop);

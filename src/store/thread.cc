@@ -1,6 +1,8 @@
 #include "store/thread.h"
 
+#include <algorithm>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "store/system_limit.h"
@@ -8,6 +10,8 @@
 namespace rheocyte {
 
 const bool has_threads = true;
+
+int processors() { return std::max(1, int(std::thread::hardware_concurrency())); }
 
 namespace {
 

@@ -15,6 +15,9 @@ namespace rheocyte {
 /// a thread has done its work when it has been made.
 extern const bool has_threads;
 
+/// Threads that the machine does at once, at least one.
+int processors();
+
 /// Of a thread, in bytes: for solving, and for what only waits, reads and writes text.
 inline constexpr std::size_t usual_stack = std::size_t{8} << 20U, small_stack = std::size_t{2} << 20U;
 

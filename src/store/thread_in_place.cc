@@ -7,6 +7,8 @@ namespace rheocyte {
 
 const bool has_threads = false;
 
+int processors() { return 1; }
+
 namespace {
 
 std::function<void()>& looks() {

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -117,7 +116,7 @@ Rank rank_from_environment() {
 }
 
 int available_processors(const Rank& rank) {
-  const int all = int(std::max(1u, std::thread::hardware_concurrency()));
+  const int all = processors();
   const int told = allowed_processors(), allowed = told > 0 ? told : all;
   if (rank.count <= 1) return allowed;
   const int not_bound = 1, bound = allowed < all ? allowed : not_bound;

@@ -87,8 +87,7 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranc
     g(log_flow_row) = std::log(flow) - place;
     g_slope(log_flow_row) = flow_slope / place_slope - 1;
     curve.place.push_back(place);
-    curve.value.push_back(g);
-    curve.slope.push_back(g_slope);
+    curve.samples.push_back({g, g_slope});
   }
   return curve;
 }
@@ -182,13 +181,15 @@ std::pair<CombinedInterpolation::Row, CombinedInterpolation::Row> CombinedInterp
                                                                                                double progress) {
   if (progress < branch.place.front() || progress > branch.place.back()) {
     const auto end = progress > branch.place.front() ? branch.place.size() - 1 : 0;
-    return {branch.value[end] + (progress - branch.place[end]) * branch.slope[end], branch.slope[end]};
+    const auto& [value, slope] = branch.samples[end];
+    return {value + (progress - branch.place[end]) * slope, slope};
   }
   const auto k = std::size_t(interval_of(branch.place, progress));
   const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
-  const Row &a = branch.value[k], &b = branch.value[k + 1];
-  const Row slope_a = h * branch.slope[k], slope_b = h * branch.slope[k + 1];
-  return {hermite(t)(a, b, slope_a, slope_b), hermite_slope(t)(a, b, slope_a, slope_b) / h};
+  const auto &a = branch.samples[k], &b = branch.samples[k + 1];
+  const Row slope_a = h * a.slope, slope_b = h * b.slope;
+  return {hermite(t)(a.value, b.value, slope_a, slope_b),
+          hermite_slope(t)(a.value, b.value, slope_a, slope_b) * (1 / h)};
 }
 
 CellFunction CombinedInterpolation::end(const Curve& branch) const {
@@ -207,42 +208,28 @@ CellFunction CombinedInterpolation::axial_end(int axial, const CellCoordinates& 
   return between_nodes(ratios_, cell, x_ratio, [&](int i) { return sheet_end(sheet_of(axial, i), cell); });
 }
 
-std::vector<NodeWeight> CombinedInterpolation::radius_weights(int sheet, int fraction,
-                                                              const CellCoordinates& cell) const {
-  return axis_weights(log_radii_, cell, x_radius,
-                      [&](int i) { return part_of(end(curve(sheet, fraction, i)), cell(x_progress)); });
-}
-
-std::vector<NodeWeight> CombinedInterpolation::fraction_weights(int sheet, const CellCoordinates& cell) const {
-  return axis_weights(fractions_, cell, x_fraction,
-                      [&](int j) { return part_of(end(sheet, j, cell), cell(x_progress)); });
-}
-
-std::vector<NodeWeight> CombinedInterpolation::ratio_weights(int axial, const CellCoordinates& cell) const {
-  return axis_weights(ratios_, cell, x_ratio,
-                      [&](int i) { return part_of(sheet_end(sheet_of(axial, i), cell), cell(x_progress)); });
-}
-
-std::vector<NodeWeight> CombinedInterpolation::axial_weights(const CellCoordinates& cell) const {
-  return axis_weights(axial_ratios_, cell, x_axial,
-                      [&](int i) { return part_of(axial_end(i, cell), cell(x_progress)); });
-}
-
 std::vector<CombinedInterpolation::CurveWeight> CombinedInterpolation::curve_weights(
     const CellCoordinates& cell) const {
+  const double progress = cell(x_progress);
+  const AxisPolynomials by_axial(axial_ratios_, cell, x_axial), by_ratio(ratios_, cell, x_ratio),
+      by_fraction(fractions_, cell, x_fraction), by_radius(log_radii_, cell, x_radius);
   std::vector<CurveWeight> all;
   all.reserve(256);  // of four nodes of each of the four axes
-  for (const auto& [axial, of_axial] : axial_weights(cell))
-    for (const auto& [ratio, of_ratio] : ratio_weights(axial, cell)) {
-      const int sheet = sheet_of(axial, ratio);
-      const CellFunction of_sheet = of_axial * of_ratio;
-      for (const auto& [fraction, of_fraction] : fraction_weights(sheet, cell)) {
-        const CellFunction of_row = of_sheet * of_fraction;
-        for (const auto& [radius, of_radius] : radius_weights(sheet, fraction, cell))
-          if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
-            all.push_back({&found, of_row * of_radius});
-      }
-    }
+  const auto add_radii = [&](int sheet, int fraction, const CellFunction& of_row) {
+    const auto part = [&](int i) { return part_of(end(curve(sheet, fraction, i)), progress); };
+    for (const auto& [radius, of_radius] : by_radius.weights(part))
+      if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
+        all.push_back({&found, of_row * of_radius});
+  };
+  const auto add_sheet = [&](int sheet, const CellFunction& of_sheet) {
+    const auto part = [&](int j) { return part_of(end(sheet, j, cell), progress); };
+    for (const auto& [fraction, of_fraction] : by_fraction.weights(part))
+      add_radii(sheet, fraction, of_sheet * of_fraction);
+  };
+  for (const auto& [axial, of_axial] : by_axial.weights([&](int i) { return part_of(axial_end(i, cell), progress); })) {
+    const auto part = [&, axial = axial](int i) { return part_of(sheet_end(sheet_of(axial, i), cell), progress); };
+    for (const auto& [ratio, of_ratio] : by_ratio.weights(part)) add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
+  }
   return all;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "table/axis_weights.h"
+#include "table/axis_polynomials.h"
 #include "table/cell_coordinates.h"
 #include "table/combined_table.h"
 
@@ -70,8 +70,11 @@ class CombinedInterpolation {
   struct Curve {
     int branch = -1;      ///< of the table
     bool is_own = false;  ///< else there is none, and the curve is that of the nearest radius or fraction that has one
+    struct Sample {
+      Row value, slope;
+    };
     std::vector<double> place;
-    std::vector<Row> value, slope;
+    std::vector<Sample> samples;
     bool reaches(double log_progress) const {
       return is_own && log_progress >= place.front() && log_progress <= place.back();
     }
@@ -92,13 +95,8 @@ class CombinedInterpolation {
   const Curve& curve(int sheet, int fraction, int radius) const;
   /// Value, and slope over ln of the progress.
   static std::pair<Row, Row> along(const Curve& branch, double progress);
-  /// All curves of which a cell is a weighted sum.
+  /// All curves of which a cell is a weighted sum. What a branch counts falls smoothly to nothing beyond its end.
   std::vector<CurveWeight> curve_weights(const CellCoordinates& cell) const;
-  /// Of the branches on an axis at a cell. What one of them counts falls smoothly to nothing beyond its end.
-  std::vector<NodeWeight> radius_weights(int sheet, int fraction, const CellCoordinates& cell) const;
-  std::vector<NodeWeight> fraction_weights(int sheet, const CellCoordinates& cell) const;
-  std::vector<NodeWeight> ratio_weights(int axial, const CellCoordinates& cell) const;
-  std::vector<NodeWeight> axial_weights(const CellCoordinates& cell) const;
   /// The progress at which branches end: of one, and linearly between two radii, then two fractions, then two tensions.
   CellFunction end(const Curve& branch) const;
   CellFunction end(int sheet, int fraction, const CellCoordinates& cell) const;

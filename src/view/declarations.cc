@@ -2,7 +2,6 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "case/case_keys.h"
@@ -12,6 +11,7 @@
 #include "measurement/viscosity.h"
 #include "numeric/number_from_chars.h"
 #include "store/build_info.h"
+#include "store/thread.h"
 #include "view/recording_columns.h"
 
 namespace rheocyte {
@@ -20,12 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json health() {
-  return {{"status", "ok"},
-          {"program", "rheocyte"},
-          {"version", version},
-          {"threads", std::max(1U, std::thread::hardware_concurrency())}};
-}
+Json health() { return {{"status", "ok"}, {"program", "rheocyte"}, {"version", version}, {"threads", processors()}}; }
 
 Json value_of(const KeyDescription& key, const Value& value) {
   if (std::holds_alternative<int>(value)) return option_of(key, value);

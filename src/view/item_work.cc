@@ -9,6 +9,7 @@
 #include "case/user_error.h"
 #include "extract/extract_recording.h"
 #include "store/file_version.h"
+#include "store/thread.h"
 #include "view/describe_item.h"
 #include "view/event_inspector.h"
 #include "view/moduli_settings.h"
@@ -140,7 +141,8 @@ void add_bulk_cortex_fit(const Json& request, const ExtractOptions& options, con
     const ModuliOptions wanted = moduli_options(options, folder);
     const ModuliTable table(wanted);
     ModuliCompanion companion(target);
-    const ModuliSummary summary = moduli_of_recording(path_in(request, "file"), wanted, table, companion, tell);
+    const ModuliSummary summary =
+        moduli_of_recording(path_in(request, "file"), wanted, table, processors(), companion, tell);
     report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
     for (const auto& lines : {lines_of(summary), summary.warnings})
       for (const auto& line : lines) report["lines"].push_back(line);

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <stop_token>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "case/json_guard.h"
@@ -67,8 +66,7 @@ void ModuliRuns::Run::end(Json said, const std::string& failure) {
   report = std::move(said);
 }
 
-ModuliRuns::ModuliRuns(const ViewItems& items)
-    : items_(items), free_processors_(std::max<int>(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
+ModuliRuns::ModuliRuns(const ViewItems& items) : items_(items), free_processors_(processors()) {}
 
 ModuliRuns::~ModuliRuns() = default;
 

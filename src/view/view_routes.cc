@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "store/thread.h"
 #include "view/cell_routes.h"
 #include "view/declarations.h"
 #include "view/page_words.h"
@@ -31,7 +31,7 @@ std::vector<fs::path> without_sessions(std::span<const fs::path> paths) {
 ViewRoutes::ViewRoutes(std::span<const fs::path> paths, const fs::path& output)
     : items_(without_sessions(paths)),
       folder_(output),
-      threads_(std::max(1, static_cast<int>(std::thread::hardware_concurrency())), session_bytes),
+      threads_(processors(), session_bytes),
       router_(in_words_of_page) {
   add_declaration_routes(router_);
   add_cell_routes(router_, exports_, threads_);

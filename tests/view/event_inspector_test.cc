@@ -201,9 +201,9 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
   moduli.measuring.viscosity_mPas = 15;
   const ModuliTable combined(moduli);
   ModuliText text(folder / "a.tsv");
-  moduli_of_recording(folder / "a.rtdc", moduli, combined, text, [](double) {});
+  moduli_of_recording(folder / "a.rtdc", moduli, combined, 2, text, [](double) {});
   ModuliCompanion companion(folder / "a_moduli.rtdc");
-  moduli_of_recording(folder / "a.rtdc", moduli, combined, companion, [](double) {});
+  moduli_of_recording(folder / "a.rtdc", moduli, combined, 1, companion, [](double) {});
   const auto rows = rows_of(folder / "a.tsv");
   ExtractOptions options;
   options.measuring = moduli.measuring;
