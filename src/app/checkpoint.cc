@@ -43,7 +43,7 @@ template <>
 struct FieldsOf<Motion> {
   template <class Self>
   static auto fields(Self& m) {
-    return std::tie(m.rate, m.unknowns, m.velocities, m.outward, m.branch, m.turning);
+    return std::tie(m.rate, m.unknowns, m.velocities, m.outward, m.branch, m.turning, m.turning_branch);
   }
 };
 

@@ -60,9 +60,6 @@ void check_off_axis_in_time(const Case& c, const KeyReading& keys) {
     refuse("cell.place", "is for stationary shapes; leave it out, and [time] shows how the cell drifts there");
   if (c.numerics.accuracy_of.value_or(AccuracyOf::deformation) != AccuracyOf::deformation)
     refuse("numerics.accuracy_of", "is for stationary shapes; leave it out");
-  if (c.cell.viscoelasticity.value_or(Viscoelasticity::kelvin_voigt) != Viscoelasticity::kelvin_voigt)
-    refuse("cell.viscoelasticity",
-           "has a memory, which is followed on the axis alone; leave it out, or cell.offset_um");
 }
 
 void check_duct_in_time(const Case& c, const KeyReading& keys) {

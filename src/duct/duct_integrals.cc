@@ -108,9 +108,8 @@ void evaluate_cell(const Bulk& bulk, const Hexahedron& at, Want want, ElementSys
     return evaluate_points<CellPoint<3>>(points.numbers, weights, form_at, want, points);
   }
   const auto form_at = [&](int q) {
-    CellHistory<3> history = self.history[q];
-    history.velocity_slope += at.spin * history.turning;
-    return MovingCellPoint<3>{.law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = history};
+    return MovingCellPoint<3>{
+        .law = bulk, .undeformed = self.undeformed[q], .rate = self.rate, .history = self.history[q].at_spin(at.spin)};
   };
   evaluate_points<MovingCellPoint<3>>(points.numbers, weights, form_at, want, points);
 }

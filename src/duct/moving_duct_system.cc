@@ -1,6 +1,7 @@
 #include "duct/moving_duct_system.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cassert>
 
 #include "duct/duct_surface.h"
@@ -117,6 +118,57 @@ void MovingDuctSystem::set_branch_history() {
       i += 6;
     }
   }
+  if (motion_.turning_branch.size() > 0) turn_branch(motion_.turning_branch);
+}
+
+// The mean of the polynomials of the elements that share a node: what one of them has at its border comes from its
+// neighbour, out of which the material turns.
+MatrixXd MovingDuctSystem::branch_at_nodes(const VectorXd& metric) const {
+  const MatrixXd to_nodes = space().reference().points_to_nodes();
+  const Eigen::Index points = space().reference().points();
+  MatrixXd sum = MatrixXd::Zero(space().nodes().count, 6);
+  VectorXd elements = VectorXd::Zero(sum.rows());
+  Eigen::Index i = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (elements_[e].liquid) continue;
+    const MatrixXd nodal =
+        apply_in_each_direction(to_nodes, metric.segment(i, 6 * points).reshaped(6, points).transpose());
+    i += 6 * points;
+    const auto& nodes = space().nodes().of_element[e];
+    for (Eigen::Index k = 0; k < nodal.rows(); ++k) {
+      sum.row(nodes[std::size_t(k)]) += nodal.row(k);
+      ++elements(nodes[std::size_t(k)]);
+    }
+  }
+  return elements.cwiseMax(1).cwiseInverse().asDiagonal() * sum;
+}
+
+void MovingDuctSystem::turn_branch(const VectorXd& metric) {
+  const Tensor<double> spin_1{0, -1, 0, 1, 0, 0, 0, 0, 0};
+  const DuctPoint centre(0, space().mesh().geometry().shape().offset, 0);
+  const MatrixXd at_nodes = branch_at_nodes(metric);
+  Eigen::Index i = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    HexahedronUnknowns& self = elements_[e];
+    if (self.liquid) continue;
+    const auto& nodes = space().nodes().of_element[e];
+    MatrixXd nodal(nodes.size(), 6), places(nodes.size(), 3);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      nodal.row(Eigen::Index(k)) = at_nodes.row(nodes[k]);
+      places.row(Eigen::Index(k)) = (space().node_points()[std::size_t(nodes[k])] - centre).transpose();
+    }
+    const MatrixXd X = element().at_points(0, places);
+    const std::array slopes{element().at_points(1, nodal), element().at_points(2, nodal),
+                            element().at_points(3, nodal)};
+    for (std::size_t q = 0; q < self.history.size(); ++q, i += 6) {
+      const auto point = Eigen::Index(q);
+      const DuctPoint passing = self.undeformed[q].inverse.eigen() * DuctPoint(-X(point, 1), X(point, 0), 0);
+      Components6 carried = Components6::Zero();
+      for (int k = 0; k < 3; ++k) carried += passing(k) * slopes[std::size_t(k)].row(point).transpose();
+      const Tensor<double> G = from_components(metric.segment<6>(i));
+      self.history[q].branch_turning = from_components(carried) - (spin_1 * G - G * spin_1);
+    }
+  }
 }
 
 VectorXd MovingDuctSystem::branch_metric(const Bulk& bulk, const VectorXd& unknowns) const {
@@ -130,7 +182,9 @@ VectorXd MovingDuctSystem::branch_metric(const Bulk& bulk, const VectorXd& unkno
       const PointMap<double, 3> map(fields_at<MapFields<double, 3>>(numbers, q));
       const Tensor<double> F = deformation_gradient(map, self.undeformed[q]);
       const Tensor<double> inverse_C = inverse(Tensor<double>(F.transpose() * F));
-      metric.segment<6>(i) = components(rheocyte::branch_metric(bulk, inverse_C, motion_.rate, self.history[q].branch));
+      const double spin = self.spin < 0 ? 0 : unknowns(self.spin);
+      const Tensor<double> history = self.history[q].at_spin(spin).branch;
+      metric.segment<6>(i) = components(rheocyte::branch_metric(bulk, inverse_C, motion_.rate, history));
       i += 6;
     }
   }

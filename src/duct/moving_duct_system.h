@@ -6,8 +6,8 @@
 namespace rheocyte {
 
 /// Cell and liquid on their way: the counterpart of MovingSystem (fem/moving_system.h). The frame moves with the node
-/// of the cell that is held, v_cell and, off the axis, the drift are its velocity. The interior has to be elastic, off
-/// the axis without a branch in series, the liquid's density zero.
+/// of the cell that is held, v_cell and, off the axis, the drift are its velocity. The interior has to be elastic,
+/// the liquid's density zero.
 class MovingDuctSystem final : public DuctSystem {
  public:
   /// The space must outlive this object. Where its walls move, `set_motion` follows them.
@@ -28,6 +28,10 @@ class MovingDuctSystem final : public DuctSystem {
   /// (eq:turning-in-time), in the shape to which the motion extrapolates.
   Eigen::MatrixX3d turning_velocity(int element) const;
   void set_branch_history();
+  /// What the turning does to the branch's metric where the material is (eq:branch-turning).
+  void turn_branch(const VectorXd& metric);
+  /// A metric at the quadrature points as a continuous function: its components at all nodes.
+  MatrixXd branch_at_nodes(const VectorXd& metric) const;
 
   Motion motion_;
   std::vector<HexahedronUnknowns> elements_;

@@ -75,7 +75,16 @@ struct CellHistory {
   Slopes<double, dim> turning =
       Slopes<double, dim>::Zero();  ///< that of the velocity with which the material turns at spin 1
   Components<double, dim> acceleration = Components<double, dim>::Zero();
-  Tensor<double> branch = Tensor<double>::Zero();  ///< of the branch's metric
+  Tensor<double> branch = Tensor<double>::Zero();          ///< of the branch's metric
+  Tensor<double> branch_turning = Tensor<double>::Zero();  ///< of what the turning at spin 1 makes of it
+
+  /// With what the material carries along as it turns.
+  CellHistory at_spin(double spin) const {
+    CellHistory turned = *this;
+    turned.velocity_slope += spin * turning;
+    turned.branch += spin * branch_turning;
+    return turned;
+  }
 };
 
 template <int dim>

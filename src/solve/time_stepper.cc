@@ -67,9 +67,9 @@ Status TimeStepper::start() {
   return Status::converged;
 }
 
-VectorXd TimeStepper::extrapolate(int levels, double time) const {
+VectorXd TimeStepper::extrapolate(int levels, double time, VectorXd TimeLevel::*field) const {
   const std::vector<double> past = times(state_);
-  return combine(extrapolation_weights(std::span<const double>(past).first(levels), time), &TimeLevel::unknowns);
+  return combine(extrapolation_weights(std::span<const double>(past).first(levels), time), field);
 }
 
 VectorXd TimeStepper::combine(const VectorXd& weights, VectorXd TimeLevel::*field) const {
@@ -176,6 +176,7 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   if (const AxialTensionTable& profile = problem_.tension_profile; !profile.is_even())
     axial_tension(media_) = profile.at(trial.level.position + now().barycentre);
   motion.branch = combine(weights, &TimeLevel::branch);
+  if (motion.turning.size() > 0) motion.turning_branch = extrapolate(levels, trial.level.time, &TimeLevel::branch);
   trial.level.unknowns = guess;
   trial.newton = solve(motion, trial.level);
   if (trial.newton.status != Status::converged) return trial;

@@ -50,7 +50,7 @@ class TimeStepper final : public Stepper {
   double surface_change(const VectorXd& difference, double rate) const;
   StepErrors errors(const Trial&, int order) const;
   void accept(const Trial&, int order);
-  VectorXd extrapolate(int levels, double time) const;
+  VectorXd extrapolate(int levels, double time, VectorXd TimeLevel::*field = &TimeLevel::unknowns) const;
   VectorXd combine(const VectorXd& weights, VectorXd TimeLevel::*field) const;
   double combine(const VectorXd& weights, double TimeLevel::*field) const;
   /// Of the levels that the formula's polynomial goes through, at a time within the last or the next step.

@@ -104,6 +104,25 @@ TEST(OffAxisInTime, ASoftInteriorThatIsMoreViscousThanTheLiquidIsFollowed) {
   EXPECT_GT(now.spin, 0);
 }
 
+TEST(OffAxisInTime, AShortMemoryIsAViscosityAndALongOneAModulus) {
+  // A branch that forgets a hundred times faster than the cell turns, and one that forgets nothing.
+  const auto at_end = [](double shear_modulus, double viscosity, double branch_modulus) {
+    Problem problem = cell_at(0.2, 0);
+    problem.bulk = {.law = BulkLaw::neo_hookean, .shear_modulus = shear_modulus, .viscosity = viscosity};
+    problem.bulk.branch_modulus = branch_modulus;
+    TimeStepper stepper(problem, coarse, with_accuracy(1e-3));
+    follow(stepper, 1);
+    return place_of(stepper);
+  };
+  const auto expect_alike = [](const Place& a, const Place& b, double tolerance) {
+    EXPECT_NEAR(a.offset, b.offset, tolerance * b.offset);
+    EXPECT_NEAR(a.spin, b.spin, tolerance * b.spin);
+    EXPECT_NEAR(a.deformation, b.deformation, tolerance * b.deformation);
+  };
+  expect_alike(at_end(9, 3, 300), at_end(9, 3, 0), 1e-2);
+  expect_alike(at_end(5, 1e6, 4), at_end(9, 0, 0), 5e-3);
+}
+
 TEST(OffAxisInTime, NearTheAxisOfAFunnelItIsAsOnTheAxis) {
   // On the mesh of another symmetry and other elements: both have an error of some per cent at degree 3.
   const WallTable wall{{0.5, 1.5}, {2, 1}, 0.3};
