@@ -11,7 +11,7 @@
 namespace rheocyte {
 namespace {
 
-constexpr int rendered_cells = 500, pictures_of_rendered = 8;
+constexpr int rendered_cells = 500, places_of_rendered = 8;
 
 double radius_of(double log_area) { return std::exp(log_area / 2) * std::numbers::inv_sqrtpi; }
 
@@ -34,15 +34,12 @@ OutlineErrors::OutlineErrors(const ElongatedTable& table, double length, double 
     smooth(int(ShapeFeature::area_um2)) = log_area;
     smooth.segment<known>(first) = state.value.tail<known>();
     const Eigen::MatrixX2d outline = outline_of(smooth);
-    const auto errors = [&](double deviation) {
-      CellRandom random(1, std::uint64_t(i), Purpose::contour);
-      return errors_in_pixels(outline, pixel_size_um, pictures_of_rendered, random, {deviation, noise.correlation});
-    };
-    // To both sides, so that the mean of a few pictures has nothing of the first order.
-    const ShapeErrors out = errors(noise.deviation), in = errors(-noise.deviation), none = errors(0);
+    CellRandom random(1, std::uint64_t(i), Purpose::contour), again = random;
+    const ShapeErrors with = errors_in_pixels(outline, pixel_size_um, 2 * places_of_rendered, random, noise),
+                      without = errors_in_pixels(outline, pixel_size_um, places_of_rendered, again);
     rows.row(i) = terms_at(log_area, smooth(first), smooth(first + 1));
-    found.row(i) << ((out.bias + in.bias) / 2 - none.bias).transpose(),
-        ((out.covariance + in.covariance) / 2 - none.covariance).reshaped().transpose();
+    found.row(i) << (with.bias - without.bias).transpose(),
+        (with.covariance - without.covariance).reshaped().transpose();
     found.row(i) *= std::pow(radius_of(log_area) / noise.deviation, 2);
   }
   law_ = solve_dense(rows.transpose() * rows, rows.transpose() * found);

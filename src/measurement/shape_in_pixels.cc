@@ -36,8 +36,10 @@ ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_
   return shape_of_contour(finder.contour_of({size, mask}), pixel_size_um);
 }
 
-ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
-                             const OutlineNoise& noise_um) {
+namespace {
+
+ShapeErrors errors_to_one_side(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
+                               const OutlineNoise& noise_um) {
   assert(draws > 1);
   const ShapeVector truth = shape_vector(outline_shape(outline_um));
   const double height = outline_um.col(1).maxCoeff() - outline_um.col(1).minCoeff();
@@ -54,6 +56,18 @@ ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_si
   }
   errors.covariance -= errors.bias * errors.bias.transpose() * (double(draws) / (draws - 1));
   return errors;
+}
+
+}  // namespace
+
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
+                             const OutlineNoise& noise_um) {
+  if (noise_um.deviation == 0) return errors_to_one_side(outline_um, pixel_size_um, draws, random, noise_um);
+  CellRandom again = random;
+  const OutlineNoise opposite{-noise_um.deviation, noise_um.correlation};
+  const ShapeErrors out = errors_to_one_side(outline_um, pixel_size_um, draws / 2, random, noise_um),
+                    in = errors_to_one_side(outline_um, pixel_size_um, draws / 2, again, opposite);
+  return {(out.bias + in.bias) / 2, (out.covariance + in.covariance) / 2};
 }
 
 }  // namespace rheocyte

@@ -13,7 +13,8 @@ ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um);
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
 /// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts
 /// as many rows nearly wherever it lies, and its errors are those of no other cell. The covariance is that of one
-/// picture. With errors of a segmentation each has its own, at the same places as without them.
+/// picture. With errors of a segmentation each of half as many places, the same as without, has one of its own and its
+/// opposite, so that the mean of a few pictures has nothing of the first order.
 ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
                              const OutlineNoise& noise_um = {});
 
