@@ -1,11 +1,12 @@
 // How well the law of cells with bulk, cortex and tensions comes back from virtual recordings: population_moments TABLE
 // [--recordings 40] [--cells 500] [--young 2] [--cortex 10] [--viscosity 15] [--tension 0.3] [--radius 6.5]
-// [--least-area UM2] [--greatest-area UM2] [--first-seed 1] [--each 1]
+// [--least-area UM2] [--greatest-area UM2] [--outline-noise UM] [--known-noise UM] [--first-seed 1] [--each 1]
 //
 // TABLE: combined_*.cbor. Cells of 6.5 um: E (kPa), E2D (mN/m) lognormal with a spread of 20 %, r0 of 7 %, tension over
 // E2D of 0.3 with 30 %; the axial tension, over the wall's shear stress, is the same for all. Each is seen once in
 // pixels of 0.34 um, as an outline whose hull has the modes of the table. Gates on the measured area keep --cells of
-// them; the truth is that of all cells whose shape is in the table. With --each a line for each recording.
+// them; the truth is that of all cells whose shape is in the table. Outlines are off by --outline-noise, and the fit
+// takes --known-noise for it. With --each a line for each recording.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "infer/combined_population.h"
+#include "measurement/outline_noise.h"
 #include "measurement/shape_in_pixels.h"
 #include "program.h"
 #include "synth/combined_shapes.h"
@@ -30,7 +32,7 @@ constexpr double pixel_um = 0.34;
 struct Wanted {
   int recordings = 40, cells = 500;
   double young = 2, cortex = 10, viscosity = 15, tension = 0.3, radius = 6.5;
-  double least_area = 0, greatest_area = HUGE_VAL;
+  double least_area = 0, greatest_area = HUGE_VAL, outline_noise = 0, known_noise = 0;
   int first_seed = 1;
   bool each = false;
 };
@@ -76,8 +78,9 @@ class Recordings {
       }
       truth.add(cell);
       const double along = random.uniform() - 0.5, across = random.uniform() - 0.5;
-      const ShapeVector features =
-          features_in_pixels(silhouette(std::get<CellShape>(shape).meridian), pixel_um, {along, across});
+      const auto outline =
+          displaced(silhouette(std::get<CellShape>(shape).meridian), {.deviation = wanted_.outline_noise}, random);
+      const ShapeVector features = features_in_pixels(outline, pixel_um, {along, across});
       if (log_area_.pass(features(int(ShapeFeature::area_um2)))) cells.push_back({features, flow_});
     }
     truth.divide();
@@ -85,7 +88,11 @@ class Recordings {
   }
 
   CombinedPopulation found(const std::vector<MeasuredCell>& cells) const {
-    return fit_combined_population(moduli_, {{flow_, Section::tube, 1}, pixel_um, log_area_}, cells, [] {});
+    const SeenPopulation seen{.sight = {flow_, Section::tube, 1},
+                              .pixel_size_um = pixel_um,
+                              .log_area = log_area_,
+                              .outline_noise = {.deviation = wanted_.known_noise}};
+    return fit_combined_population(moduli_, seen, cells, [] {});
   }
 
  private:
@@ -151,6 +158,8 @@ Wanted wanted_by(int argc, char** argv) {
                                                {"--radius", &wanted.radius},
                                                {"--least-area", &wanted.least_area},
                                                {"--greatest-area", &wanted.greatest_area},
+                                               {"--outline-noise", &wanted.outline_noise},
+                                               {"--known-noise", &wanted.known_noise},
                                                {"--first-seed", &first_seed},
                                                {"--each", &each}};
   for (int i = 2; i + 1 < argc; i += 2)

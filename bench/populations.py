@@ -5,6 +5,7 @@
 
 usual       cells of d about 0.02          stiff       half of them look rounder than a sphere
 gates       a gate on the area keeps half  elongated   under axial tensions that give c2 of about 0.1 and 0.2
+outline-noise   as usual, outlines off by 0.1 um; with --outline-noise-um and without it; outline-noise-elongated
 null        three pairs, 3 % between recordings: how often p < 0.05 (--recordings: of pairs of conditions)
 speed       seconds and memory for 1e4 and 1e6 events, without pictures
 peer        R's lme4 on the moduli of single events of the same recordings (bench/population_peer.R): three pairs, 3 % between
@@ -39,6 +40,8 @@ radius_um = {{mean = {radius}, sd = {radius_sd}, distribution = "lognormal"}}
 [cell.bulk]
 young_modulus_kPa = {{mean = {modulus}, sd = {modulus_sd}, distribution = "lognormal"}}
 {shapes}
+[noise]
+contour_um = {outline_noise}
 """
 ELONGATED = '[shapes]\ntable = "HE-3D-el-26"'
 SPREAD = 0.2  # of E, relative
@@ -49,14 +52,16 @@ NORMAL_90 = 1.6449
 class Cells:
     """A population: mean radius and Young's modulus (of the lognormal law, its mean), and the liquid's tension."""
 
-    def __init__(self, modulus, radius=6.0, tension=None, gate=()):
+    def __init__(self, modulus, radius=6.0, tension=None, gate=(), outline_noise=0.0):
         self.modulus, self.radius, self.tension, self.gate = modulus, radius, tension, list(gate)
+        self.outline_noise = outline_noise
 
     def spec(self, cells, seed, factor=1.0):
         modulus = self.modulus * factor
         tension = "" if self.tension is None else f"axial_tension_Pa = {{mean = {self.tension}, sd = {0.2 * self.tension}}}"
         return SPEC.format(cells=cells, seed=seed, tension=tension, radius=self.radius, radius_sd=0.07 * self.radius,
-                           modulus=modulus, modulus_sd=SPREAD * modulus, shapes="" if self.tension is None else ELONGATED)
+                           modulus=modulus, modulus_sd=SPREAD * modulus, shapes="" if self.tension is None else ELONGATED,
+                           outline_noise=self.outline_noise)
 
     def truth(self):
         """Mean and standard deviation of ln E."""
@@ -68,6 +73,7 @@ SCENARIOS = {
     "usual": Cells(4), "stiff": Cells(14, radius=5),
     "gates": Cells(6, gate=["--min", "area_um=109"]),
     "elongated": Cells(4.2, tension=500), "elongated-more": Cells(5.0, tension=1300),
+    "outline-noise": Cells(4, outline_noise=0.1), "outline-noise-elongated": Cells(4.2, tension=500, outline_noise=0.1),
 }
 
 
@@ -126,10 +132,17 @@ def truth_of_fitted(bench, files):
 
 def coming_back(bench, cells, arguments):
     files = [bench.recording(cells, arguments.cells, seed) for seed in range(arguments.recordings)]
-    record = bench.population({"all": files}, *cells.gate)
+    if cells.outline_noise:
+        tell_coming_back(bench, cells, files, f"{arguments.scenario}, --outline-noise-um {cells.outline_noise}",
+                         "--outline-noise-um", str(cells.outline_noise))
+    tell_coming_back(bench, cells, files, arguments.scenario)
+
+
+def tell_coming_back(bench, cells, files, name, *options):
+    record = bench.population({"all": files}, *cells.gate, *options)
     mean, spread = cells.truth() if cells.tension is None else truth_of_fitted(bench, files)
     found = [each["population"]["parameters"] for each in record["recordings"] if "population" in each]
-    print(f"{arguments.scenario}: {len(found)} of {len(files)} recordings of {arguments.cells} cells have a number; events fitted "
+    print(f"{name}: {len(found)} of {len(files)} recordings have a number; events fitted "
           f"{sum(each['events']['fitted'] for each in record['recordings']) / len(files):.0f}")
     print(" ", told("ln E", [p[1]["value"] - mean for p in found]), "|",
           told("spread of ln E", [math.exp(p[3]["value"]) / spread - 1 for p in found]))

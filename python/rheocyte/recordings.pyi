@@ -87,6 +87,7 @@ def population(
     paired: bool = False,
     between_recordings: float | None = None,
     shared_spread: bool = False,
+    outline_noise_um: float | None = None,
     table: _Path | None = None,
     no_bins: bool = False,
     jobs: float | None = None,

@@ -215,6 +215,7 @@ std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::
 
 CombinedPopulations::CombinedPopulations(const PopulationOptions& options)
     : wanted_section_(options.section),
+      outline_noise_um_(options.outline_noise_um.value_or(0)),
       table_(moduli_options(options)),
       moduli_(table_.between, table_.simulated, {features_of_contour(last_fitted_mode), true, 0}) {
   if (!options.by.empty() && options.by != "asymmetry")
@@ -251,8 +252,10 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   CombinedReport& combined = r.combined.emplace();
   combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
   combined.wall_stress_Pa = r.wall_stress_Pa();
-  const SeenPopulation seen{
-      {events.flow, combined.section, table_.section_error_factor()}, events.pixel_size_um, area_gate(events)};
+  const SeenPopulation seen{.sight = {events.flow, combined.section, table_.section_error_factor()},
+                            .pixel_size_um = events.pixel_size_um,
+                            .log_area = area_gate(events),
+                            .outline_noise = {.deviation = outline_noise_um_}};
   combined.found = fit_combined_population(moduli_, seen, cells, goes_on);
   const MomentFit& fit = combined.found.fit;
   if (!fit.is_found) {

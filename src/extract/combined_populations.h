@@ -23,6 +23,7 @@ class CombinedPopulations : public PopulationModel {
 
  private:
   std::optional<Section> wanted_section_;
+  double outline_noise_um_;
   ModuliTable table_;
   BulkCortexFit moduli_;
 };

@@ -40,7 +40,7 @@ class PlannedCells {
       : options_(options),
         channel_(channel),
         liquid_(*tables.elongated(channel.flow.exponent)),
-        maps_(liquid_, channel.flow, options.pixel_size_um, StiffnessMeasure::asymmetry),
+        maps_(liquid_, channel.flow, {options.pixel_size_um}, StiffnessMeasure::asymmetry),
         map_(maps_.at(options.mode_2)),
         log_modulus_(std::log(options.young_modulus_kPa / channel.flow.viscosity_mPas)),
         u_(std::log(options.radius_um)) {}
@@ -55,7 +55,7 @@ class PlannedCells {
     channel_.deformation = seen.deformation;
     channel_.mode_3 = seen.modes.mode_3;
     channel_.error_by_asymmetry = event_error(*map_, u_, log_modulus_);
-    const SolidMaps round(liquid_, channel_.flow, options_.pixel_size_um, StiffnessMeasure::deformation);
+    const SolidMaps round(liquid_, channel_.flow, {options_.pixel_size_um}, StiffnessMeasure::deformation);
     const auto by_deformation = round.at(0);
     const double height = log_modulus_ - by_deformation->soft_end(u_).log_modulus;
     if (height < 0) return;

@@ -70,6 +70,7 @@ struct PopulationOptions {
   bool paired = false;             ///< the recordings of each condition are of the same sessions, in order
   std::optional<double> between_recordings;  ///< known standard deviation of ln E
   bool shared_spread = false;                ///< of solids: the cells of all recordings of a condition scatter alike
+  std::optional<double> outline_noise_um;    ///< OutlineNoise::deviation; not given: 0
   bool no_bins = false;
   std::optional<double> jobs;  ///< threads
 };

@@ -65,21 +65,28 @@ class DrawnPopulation {
     const SolidFeatures f = solids_.seen(cell);
     const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um), mode_3 = f.modes.mode_3;
     const ModeErrors errors = mode_errors(log_area_px, f.modes);
+    const auto outline = solids_.outline_errors(cell).covariance;
+    const auto variance = [&](int feature) { return outline(feature, feature); };
+    const auto noise = [&](double of_pixels, double outline_variance) {
+      return std::sqrt(std::max(of_pixels * of_pixels + outline_variance, 0.0)) * random.normal();
+    };
     values[checked_area] = seen.log_area;
     // The cell has the measured elongation with its noise, which the inertia ratio shares.
     values[checked_inertia] = f.inertia_ratio;
     if (maps_.by() == StiffnessMeasure::asymmetry) {
       // d = 3/4 c_2^2 + 2 c_3^2 + what the pixels add to all modes, which is the noise of a round cell.
       const double of_other_modes = mode_errors(log_area_px, {}).deformation_deviation;
+      const Eigen::Vector2d slopes(1.5 * f.modes.mode_2, 4 * mode_3);
+      const double of_these = slopes.dot(outline.block<2, 2>(feature_of_mode(2), feature_of_mode(2)) * slopes);
       values[checked_mode_3] = seen.measure;
-      values[checked_deformation] =
-          f.deformation + 4 * mode_3 * (seen.measure - mode_3) + of_other_modes * random.normal();
+      values[checked_deformation] = f.deformation + 4 * mode_3 * (seen.measure - mode_3) +
+                                    noise(of_other_modes, variance(int(ShapeFeature::deformation)) - of_these);
     } else {
       values[checked_mode_3] = mode_3 + errors.mode_3.deviation * random.normal();
       values[checked_deformation] = seen.measure;
     }
-    values[checked_mode_4] = f.modes.mode_4 + errors.mode_4.deviation * random.normal();
-    values[checked_mode_5] = f.modes.mode_5 + errors.mode_5.deviation * random.normal();
+    values[checked_mode_4] = f.modes.mode_4 + noise(errors.mode_4.deviation, variance(feature_of_mode(4)));
+    values[checked_mode_5] = f.modes.mode_5 + noise(errors.mode_5.deviation, variance(feature_of_mode(5)));
   }
 
   const PopulationEvents& events_;

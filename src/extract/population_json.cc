@@ -333,6 +333,7 @@ std::string population_json(const PopulationReport& report) {
                              {"level", report.level},
                              {"between_recordings", report.between_recordings ? ordered_json(*report.between_recordings)
                                                                               : ordered_json(nullptr)},
+                             {"outline_noise_um", report.outline_noise_um},
                              {"elongation", report.elongation},
                              {"conditions", conditions},
                              {"comparisons", comparisons},

@@ -19,6 +19,11 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
   if (options.model.empty() || options.model == "solid") {
     if (options.section)
       throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");
+    if (options.outline_noise_um && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
+      throw UserError(
+          fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
+                      "of whole outlines alone. Leave one of them out.",
+                      options.by));
     return std::make_unique<SolidPopulations>(options);
   }
   throw UserError(fmt::format("rheocyte: --model {}: it must be solid or cortex.", one_line(options.model, 40)));

@@ -63,6 +63,7 @@ struct PopulationReport {
   StiffnessMeasure by = StiffnessMeasure::asymmetry;
   double level = 0.95;
   std::optional<double> between_recordings;
+  double outline_noise_um = 0;
   std::vector<RecordingReport> recordings;
   std::vector<ConditionReport> conditions;
   std::vector<ConditionComparison> comparisons;
@@ -80,7 +81,8 @@ class PopulationAnalysis {
   PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions);
 
   /// Fits the population of a recording; of cells with a cortex, `goes_on` is called from step to step. UserError: too
-  /// few events, none inside the gates, gates that leave a tail, the same measurement once more.
+  /// few events, none inside the gates, gates that leave a tail, the same measurement once more, an outline noise of
+  /// more than a tenth of the median radius.
   const RecordingReport& add(std::size_t condition, std::size_t session, const PopulationEvents& events,
                              const std::function<void()>& goes_on);
   /// Of all that were added.
@@ -89,6 +91,7 @@ class PopulationAnalysis {
  private:
   RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
   void check_new(const RecordingReport& recording, const PopulationEvents& events);
+  void check_outline_noise(const PopulationEvents& events, const RecordingReport& recording) const;
 
   PopulationOptions options_;
   std::vector<PopulationCondition> conditions_;

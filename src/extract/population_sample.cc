@@ -230,7 +230,8 @@ const std::vector<double>& elongation_measure(const PopulationEvents& events, St
   return events.of(by == StiffnessMeasure::asymmetry ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio);
 }
 
-PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table) : by_(by) {
+PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table, double outline_noise_um)
+    : by_(by), outline_noise_um_(outline_noise_um) {
   if (!table.empty()) {
     given_ = std::make_unique<const ElongatedSolids>(given_elongated_table(table));
     given_liquid_ = std::make_unique<const ElongatedLiquid>(*given_, nullptr, nullptr);
@@ -254,7 +255,8 @@ PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
 PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
   Channel& channel = channels_[key_of(events)];
   if (!channel.solids)
-    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow, events.pixel_size_um, by_);
+    channel.solids = std::make_unique<const SolidMaps>(
+        liquid(events), events.flow, SolidImages{events.pixel_size_um, {.deviation = outline_noise_um_}}, by_);
   return channel;
 }
 

@@ -13,8 +13,9 @@ namespace rheocyte {
 class PopulationMaps {
  public:
   /// `table`: one of elongated cells (given_elongated_table), which is used for all liquids; empty: those of the square
-  /// channel that come with the program. UserError if there is none.
-  explicit PopulationMaps(StiffnessMeasure by, const std::string& table = {});
+  /// channel that come with the program. UserError if there is none. `outline_noise_um`: OutlineNoise::deviation, for
+  /// the asymmetry alone.
+  explicit PopulationMaps(StiffnessMeasure by, const std::string& table = {}, double outline_noise_um = 0);
 
   StiffnessMeasure by() const { return by_; }
   /// In the channel of a recording.
@@ -36,6 +37,7 @@ class PopulationMaps {
   const ElongatedLiquid& liquid(const PopulationEvents& events) const;
 
   StiffnessMeasure by_;
+  double outline_noise_um_;
   std::optional<ModulusTables> tables_;  ///< nothing if the user names one
   std::unique_ptr<const ElongatedSolids> given_;
   std::unique_ptr<const ElongatedLiquid> given_liquid_;

@@ -193,6 +193,11 @@ Settings settings_of(PopulationOptions& o) {
        std::move(between),
        setting("shared_spread", "Shared spread", &o.shared_spread,
                "of solids: one spread of radius and modulus for all recordings of a condition"),
+       of_key(*find_key(synth_keys(), "noise.contour_um"),
+              setting("outline_noise_um", "Outline noise", &o.outline_noise_um,
+                      "standard deviation of the error of the segmented outline along its normal, beside that of the "
+                      "pixels, as beads tell it; smooth over some 0.7 um of the outline",
+                      "0")),
        of_type("TABLE", {},
                setting("table", "Table", &o.table,
                        "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "

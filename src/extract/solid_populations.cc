@@ -54,7 +54,7 @@ void tell_quantities(RecordingReport& r) {
 }
 
 SolidPopulations::SolidPopulations(const PopulationOptions& options)
-    : maps_(stiffness_measure_of(options), options.table),
+    : maps_(stiffness_measure_of(options), options.table, options.outline_noise_um.value_or(0)),
       no_bins_(options.no_bins),
       threads_(int(options.jobs.value_or(processors()))) {}
 

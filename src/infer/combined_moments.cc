@@ -26,11 +26,13 @@ CellCoordinates held(const CellCoordinates& cell, const CellBox& box) {
 
 }  // namespace
 
-CombinedMoments::CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um)
+CombinedMoments::CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
+                                 const OutlineNoise& outline_noise)
     : moduli_(moduli),
       sight_(sight),
       pixel_size_um_(pixel_size_um),
       wall_stress_kPa_(1e-3 * wall_shear_stress_Pa(sight.flow)),
+      outline_noise_(outline_noise),
       scale_(scale_factors(moduli.simulated(), sight.flow)) {}
 
 CombinedMoments::Numbers CombinedMoments::numbers(const CombinedLaw& law, const Numbers& place) const {

@@ -7,6 +7,7 @@
 #include "infer/bulk_cortex_fit.h"
 #include "infer/combined_law.h"
 #include "infer/rendered_errors.h"
+#include "measurement/outline_noise.h"
 #include "population/fit_moments.h"
 #include "population/normal_nodes.h"
 
@@ -15,8 +16,10 @@ namespace rheocyte {
 /// Mean and covariance of the features that are seen of cells of a law: in pixels, in the recording's channel.
 class CombinedMoments : public MomentModel {
  public:
-  /// The viscosity of the sight's flow is that of the median event. The table must outlive it.
-  CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um);
+  /// The viscosity of the sight's flow is that of the median event. Pictures have such errors of the outline (um). The
+  /// table must outlive it.
+  CombinedMoments(const BulkCortexFit& moduli, const Sight& sight, double pixel_size_um,
+                  const OutlineNoise& outline_noise = {});
 
   Moments at(const Eigen::VectorXd& parameters) const override { return moments(parameters, false).there; }
   MomentSlopes slopes(const Eigen::VectorXd& parameters) const override { return moments(parameters, true); }
@@ -110,6 +113,7 @@ class CombinedMoments : public MomentModel {
   const BulkCortexFit& moduli_;
   Sight sight_;
   double pixel_size_um_, wall_stress_kPa_;
+  OutlineNoise outline_noise_;
   ScaleFactors scale_;
   NormalNodes nodes_ = normal_nodes(varying);
   std::optional<ValueGate> gate_;

@@ -40,7 +40,8 @@ bool CombinedMoments::render(const CombinedVector& parameters, std::size_t pictu
     if (!is_plausible(smooth, sight_.flow.width_um)) continue;
     if (!passes(smooth(int(ShapeFeature::area_um2)) + added_to_area)) continue;
     CellRandom random(1, number, Purpose::picture);
-    const ShapeErrors errors = errors_in_pixels(outline_of(smooth), pixel_size_um_, pictures_of_cell, random);
+    const ShapeErrors errors =
+        errors_in_pixels(outline_of(smooth), pixel_size_um_, pictures_of_cell, random, outline_noise_);
     terms.row(Eigen::Index(i)) << 1, place.transpose();
     bias.row(Eigen::Index(i)) = errors.bias.transpose();
     pixels_.middle.covariance += errors.covariance;

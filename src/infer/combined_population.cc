@@ -19,9 +19,9 @@ constexpr std::size_t virtual_events = 5'000;
 constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 3, pictures_of_median = 2'000;
 
 /// As if the measured outline were smooth: for a beginning.
-ShapeErrors pixels_of(const ShapeVector& measured, double pixel_size_um) {
+ShapeErrors pixels_of(const ShapeVector& measured, const SeenPopulation& seen) {
   CellRandom random(1, 0, Purpose::picture);
-  return errors_in_pixels(outline_of(measured), pixel_size_um, pictures_of_median, random);
+  return errors_in_pixels(outline_of(measured), seen.pixel_size_um, pictures_of_median, random, seen.outline_noise);
 }
 
 /// Means within the table, but for the radius and the stiffness; spreads above what nobody sees.
@@ -77,7 +77,8 @@ class CombinedSearch {
         seen_(seen),
         cells_(cells),
         median_(median_of(cells)),
-        model_(moduli, {median_.flow, seen.sight.section, seen.sight.error_factor}, seen.pixel_size_um),
+        model_(moduli, {median_.flow, seen.sight.section, seen.sight.error_factor}, seen.pixel_size_um,
+               seen.outline_noise),
         settings_(moment_settings(moduli.table(), goes_on)) {
     inside_.resize(cells.size());
     std::iota(inside_.begin(), inside_.end(), 0);
@@ -101,7 +102,7 @@ class CombinedSearch {
  private:
   /// With what the pixels do to the median outline. The gates of the table are told by the cells that are found so.
   bool begin() {
-    const ShapeErrors of_median_outline = pixels_of(median_.shape, seen_.pixel_size_um);
+    const ShapeErrors of_median_outline = pixels_of(median_.shape, seen_);
     model_.take_pixels(of_median_outline);
     const ModuliEstimate of_median =
         moduli_.fit({median_.shape, of_median_outline}, median_.flow, AxialTension::unknown());

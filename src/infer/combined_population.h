@@ -10,6 +10,7 @@
 #include "infer/combined_law.h"
 #include "infer/rendered_errors.h"
 #include "infer/seen_cells.h"
+#include "measurement/outline_noise.h"
 #include "population/fit_moments.h"
 #include "population/normal_nodes.h"
 
@@ -22,6 +23,7 @@ struct SeenPopulation {
   ValueGate log_area = {};  ///< which measured areas are recorded at all
   /// Events of sizes that the table does not have are left out; else the law is that of all events as they are.
   bool leaves_out_other_sizes = true;
+  OutlineNoise outline_noise = {};  ///< um
 };
 
 struct CombinedPopulation {

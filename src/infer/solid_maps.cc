@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "infer/outline_errors.h"
 #include "infer/plane_map.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/local_cubic.h"
@@ -34,8 +36,8 @@ struct SheetNumber {
     elongation_variance,
     elongation_covariance,
     measure_variance,
-    none,  ///< an even count is faster
-    count,
+    area_elongation_covariance,
+    count,  ///< an even one is faster
     that_find = log_area
   };
 };
@@ -112,12 +114,15 @@ SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, d
 /// The table through pixels on a grid of (u, height, axial ratio), in the recording's channel.
 class SolidMaps::Sheets {
  public:
-  Sheets(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by)
-      : liquid_(liquid), table_(liquid.solids().table()), pixel_size_um_(pixel_size_um), by_(by) {
-    const ChannelFlow& computed = table_.origin().flow;
-    const ScaleFactors factors = scale_factors(computed, {flow.width_um, flow.rate_ul_s, 1, flow.exponent});
-    length_ = factors.length;
-    log_modulus_factor_ = std::log(factors.modulus);
+  Sheets(const ElongatedLiquid& liquid, const ChannelFlow& flow, const SolidImages& images, StiffnessMeasure by)
+      : liquid_(liquid),
+        table_(liquid.solids().table()),
+        pixel_size_um_(images.pixel_size_um),
+        by_(by),
+        length_(factors_of(flow).length),
+        outline_errors_(table_, length_, images.pixel_size_um, images.outline) {
+    assert(by == StiffnessMeasure::asymmetry || images.outline.deviation == 0);
+    log_modulus_factor_ = std::log(factors_of(flow).modulus);
     first_u_ = std::log(table_.radius_um(0) * length_);
     step_u_ = (std::log(table_.radius_um(1) * length_) - first_u_) / (radius_nodes - 1);
     first_axial_ = table_.least()(1);
@@ -155,8 +160,22 @@ class SolidMaps::Sheets {
     return {table_.at({coordinate, place.axial, place.height}), place.axial};
   }
 
-  SolidFeatures seen(const ElongatedState& state) const {
-    return through_pixels(features_of(state, length_), by_, pixel_size_um_);
+  ShapeErrors outline_errors(const ElongatedState& state) const {
+    const SolidFeatures smooth = features_of(state, length_);
+    return outline_errors_.at(smooth.log_area, smooth.modes.mode_2, smooth.modes.mode_3);
+  }
+
+  SolidFeatures seen(const ElongatedState& state, const ShapeVector& outline_bias) const {
+    SolidFeatures seen = through_pixels(features_of(state, length_), by_, pixel_size_um_);
+    seen.log_area += outline_bias(int(ShapeFeature::area_um2));
+    seen.deformation += outline_bias(int(ShapeFeature::deformation));
+    // The moment ratio is the inertia ratio to the power of -2.
+    seen.inertia_ratio -= std::pow(seen.inertia_ratio, 3) / 2 * outline_bias(int(ShapeFeature::moment_ratio));
+    seen.modes.mode_2 += outline_bias(feature_of_mode(2));
+    seen.modes.mode_3 += outline_bias(feature_of_mode(3));
+    seen.modes.mode_4 += outline_bias(feature_of_mode(4));
+    seen.modes.mode_5 += outline_bias(feature_of_mode(5));
+    return seen;
   }
 
   ForwardMap::Interval elongations() const {
@@ -181,6 +200,9 @@ class SolidMaps::Sheets {
   };
   using Sum = FirstNumbers<SheetNumber::count>;
 
+  ScaleFactors factors_of(const ChannelFlow& flow) const {
+    return scale_factors(table_.origin().flow, {flow.width_um, flow.rate_ul_s, 1, flow.exponent});
+  }
   double coordinate(int i) const { return table_.coordinate_of(std::exp(first_u_ + i * step_u_) / length_); }
   double axial_at(int j) const { return first_axial_ + j * step_axial_; }
   static double height_at(int k) { return k == 0 ? stiffest_node : double(k) / (height_nodes - 1); }
@@ -191,12 +213,14 @@ class SolidMaps::Sheets {
   /// ln E + ln(height), ln A - 2 u, elongation and measure, and the noise of these.
   NodeNumbers numbers_of(const ElongatedCell& cell) const {
     const ElongatedState state = table_.at(cell);
-    const SolidFeatures features = seen(state);
-    const Eigen::Matrix3d noise = noise_of(features, by_, pixel_size_um_);
+    const ShapeErrors outline = outline_errors(state);
+    const SolidFeatures features = seen(state, outline.bias);
+    const std::array told{int(ShapeFeature::area_um2), feature_of_mode(2), feature_of_mode(3)};
+    const Eigen::Matrix3d noise = noise_of(features, by_, pixel_size_um_) + outline.covariance(told, told);
     NodeNumbers all;
     all << state.log_modulus + std::log(cell(2)) + log_modulus_factor_ + std::log(liquid_.modulus_ratio(cell)),
         elongation_of(features, by_), features.log_area - 2 * std::log(state.radius_um * length_),
-        measure_of(features, by_), noise(0, 0), noise(0, 2), noise(1, 1), noise(1, 2), noise(2, 2), 0;
+        measure_of(features, by_), noise(0, 0), noise(0, 2), noise(1, 1), noise(1, 2), noise(2, 2), noise(0, 1);
     return all;
   }
 
@@ -295,8 +319,11 @@ class SolidMaps::Sheets {
                  of_measure = slope(SheetNumber::measure) / slope(SheetNumber::elongation);
     const double variance = value(SheetNumber::elongation_variance),
                  covariance = value(SheetNumber::elongation_covariance);
+    const double with_area = value(SheetNumber::area_elongation_covariance);
     result.area_variance += of_area * of_area * variance;
+    result.area_variance -= 2 * of_area * with_area;
     result.covariance += of_area * of_measure * variance - of_area * covariance;
+    result.covariance -= of_measure * with_area;
     result.measure_variance += of_measure * of_measure * variance - 2 * of_measure * covariance;
     return result;
   }
@@ -305,18 +332,22 @@ class SolidMaps::Sheets {
   const ElongatedTable& table_;
   double pixel_size_um_;
   StiffnessMeasure by_;
-  double length_, log_modulus_factor_, first_u_, step_u_, first_axial_, step_axial_;
+  double length_;
+  OutlineErrors outline_errors_;
+  double log_modulus_factor_, first_u_, step_u_, first_axial_, step_axial_;
   std::vector<NodeNumbers> nodes_;
 };
 
-SolidMaps::SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by)
-    : by_(by), sheets_(std::make_unique<const Sheets>(liquid, flow, pixel_size_um, by)) {}
+SolidMaps::SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, const SolidImages& images,
+                     StiffnessMeasure by)
+    : by_(by), sheets_(std::make_unique<const Sheets>(liquid, flow, images, by)) {}
 SolidMaps::~SolidMaps() = default;
 
 ForwardMap::Interval SolidMaps::elongations() const { return sheets_->elongations(); }
 std::shared_ptr<const ForwardMap> SolidMaps::at(double elongation) const { return sheets_->map(elongation); }
 SolidMaps::Cell SolidMaps::cell(double elongation, double u, double x) const { return sheets_->cell(elongation, u, x); }
 
-SolidFeatures SolidMaps::seen(const Cell& cell) const { return sheets_->seen(cell.state); }
+ShapeErrors SolidMaps::outline_errors(const Cell& cell) const { return sheets_->outline_errors(cell.state); }
+SolidFeatures SolidMaps::seen(const Cell& cell) const { return sheets_->seen(cell.state, outline_errors(cell).bias); }
 
 }  // namespace rheocyte

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "infer/elongated_liquid.h"
+#include "measurement/outline_noise.h"
 #include "measurement/pixel_errors.h"
 #include "population/forward_map.h"
 
@@ -24,11 +25,17 @@ struct SolidFeatures {
 /// On average; area and deformation as the measure's law has them.
 SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, double pixel_size_um);
 
+/// By which cells are seen.
+struct SolidImages {
+  double pixel_size_um;
+  OutlineNoise outline = {};  ///< um; none but for StiffnessMeasure::asymmetry
+};
+
 class SolidMaps {
  public:
   /// Of cells in this channel and flow, whose viscosity does not count; moduli are those at 1 mPa s. The table must
   /// outlive it.
-  SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, double pixel_size_um, StiffnessMeasure by);
+  SolidMaps(const ElongatedLiquid& liquid, const ChannelFlow& flow, const SolidImages& images, StiffnessMeasure by);
   ~SolidMaps();
   SolidMaps(const SolidMaps&) = delete;
   SolidMaps& operator=(const SolidMaps&) = delete;
@@ -46,8 +53,10 @@ class SolidMaps {
     double axial_ratio;
   };
   Cell cell(double elongation, double u, double x) const;
-  /// Its features through pixels on average, in the recording's channel.
+  /// Its features through pixels on average, in the recording's channel, with the errors of the outline.
   SolidFeatures seen(const Cell& cell) const;
+  /// What these add to the pixels' errors.
+  ShapeErrors outline_errors(const Cell& cell) const;
 
  private:
   class Sheets;

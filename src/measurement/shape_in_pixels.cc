@@ -36,21 +36,38 @@ ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_
   return shape_of_contour(finder.contour_of({size, mask}), pixel_size_um);
 }
 
-ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random) {
+namespace {
+
+ShapeErrors errors_to_one_side(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
+                               const OutlineNoise& noise_um) {
   assert(draws > 1);
   const ShapeVector truth = shape_vector(outline_shape(outline_um));
   const double height = outline_um.col(1).maxCoeff() - outline_um.col(1).minCoeff();
+  Eigen::Matrix3Xd numbers(3, draws);  // before those of the noise, so that places are the same with it and without
+  for (double& number : numbers.reshaped()) number = random.uniform() - 0.5;
   ShapeErrors errors;
-  for (int draw = 0; draw < draws; ++draw) {
-    const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-    const double size = 1 + (random.uniform() - 0.5) * pixel_size_um / height;
-    ShapeVector error = features_in_pixels(size * outline_um, pixel_size_um, {x, y}) - truth;
+  for (const auto& place : numbers.colwise()) {
+    const double size = 1 + place(2) * pixel_size_um / height;
+    ShapeVector error =
+        features_in_pixels(displaced(size * outline_um, noise_um, random), pixel_size_um, {place(0), place(1)}) - truth;
     error(int(ShapeFeature::area_um2)) -= 2 * std::log(size);
     errors.bias += error / draws;
     errors.covariance += error * error.transpose() / (draws - 1);
   }
   errors.covariance -= errors.bias * errors.bias.transpose() * (double(draws) / (draws - 1));
   return errors;
+}
+
+}  // namespace
+
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
+                             const OutlineNoise& noise_um) {
+  if (noise_um.deviation == 0) return errors_to_one_side(outline_um, pixel_size_um, draws, random, noise_um);
+  CellRandom again = random;
+  const OutlineNoise opposite{-noise_um.deviation, noise_um.correlation};
+  const ShapeErrors out = errors_to_one_side(outline_um, pixel_size_um, draws / 2, random, noise_um),
+                    in = errors_to_one_side(outline_um, pixel_size_um, draws / 2, again, opposite);
+  return {(out.bias + in.bias) / 2, (out.covariance + in.covariance) / 2};
 }
 
 }  // namespace rheocyte

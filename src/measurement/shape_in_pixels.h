@@ -1,5 +1,6 @@
 // What pixels do to the features of a shape: mean and covariance over all positions of the cell on the camera.
 #pragma once
+#include "measurement/outline_noise.h"
 #include "measurement/pixel_contour.h"
 #include "numeric/cell_random.h"
 #include "shape/outline_shape.h"
@@ -12,8 +13,10 @@ ShapeVector shape_of_contour(const PixelContour& contour, double pixel_size_um);
 /// Renders the outline (um, x along the flow) at `draws` random positions, as fill_mask does, and measures each mask's
 /// contour. Sizes are spread over one pixel of the height, because a cell that is a whole number of pixels high counts
 /// as many rows nearly wherever it lies, and its errors are those of no other cell. The covariance is that of one
-/// picture.
-ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random);
+/// picture. With errors of a segmentation each of half as many places, the same as without, has one of its own and its
+/// opposite, so that the mean of a few pictures has nothing of the first order.
+ShapeErrors errors_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um, int draws, CellRandom& random,
+                             const OutlineNoise& noise_um = {});
 
 /// Features of the outline in one picture with the cell's middle at `place_px` from the middle of a pixel.
 ShapeVector features_in_pixels(const Eigen::MatrixX2d& outline_um, double pixel_size_um,

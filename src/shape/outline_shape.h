@@ -28,6 +28,7 @@ struct OutlineShape {
 /// What a shape is told by: size (area, or ln of it in a ShapeVector), deformation, Lambda1 / Lambda2, and the modes.
 enum class ShapeFeature { area_um2, deformation, moment_ratio, first_mode };
 inline constexpr int feature_count = int(ShapeFeature::first_mode) + mode_count;
+constexpr int feature_of_mode(int k) { return int(ShapeFeature::first_mode) + k - min_mode; }
 
 /// ln(area), deformation, Lambda1 / Lambda2, modes: all errors are then absolute and of the size of a small number.
 using ShapeVector = Eigen::Matrix<double, feature_count, 1>;

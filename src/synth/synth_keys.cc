@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "case/case_keys.h"
+#include "measurement/outline_noise.h"
 
 namespace rheocyte {
 
@@ -166,7 +167,8 @@ Keys noise_keys() {
                               "standard deviation of the error of the outline along its normal", Number{{0, 10}}, 0.0}),
       key<&Spec::contour_correlation_um>(
           {"noise.contour_correlation_um", "um",
-           "standard deviation of the Gaussian that smooths this error along the outline", Number{{0.01, 100}}, 0.7}),
+           "standard deviation of the Gaussian that smooths this error along the outline", Number{{0.01, 100}},
+           OutlineNoise{}.correlation}),
       key<&Spec::thermometer_C>({"noise.thermometer_C", "degC",
                                  "standard deviation of the error of the stored temperature", Number{{0, 20}}, 0.0}),
   };

@@ -14,6 +14,7 @@
 #include "measurement/contour_from_mask.h"
 #include "measurement/mask_from_outline.h"
 #include "measurement/metadata.h"
+#include "measurement/outline_noise.h"
 #include "measurement/recording_file.h"
 #include "measurement/viscosity.h"
 #include "numeric/cell_random.h"

@@ -105,17 +105,51 @@ TEST_F(PopulationCommand, RecordingsOfAConditionMayShareTheirSpread) {
                   "--shared-spread is for solids");
 }
 
+TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
+  synth("a.rtdc", {"recording.cells=500", "noise.contour_um=0.1"});
+  const auto of = [&](const std::string& folder, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"population", "--condition", "a=a.rtdc",    "-o",
+                                       folder,       "--quiet",     "--no-picture"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(call(arguments).exit_code, 0);
+    return record(folder)["recordings"][0];
+  };
+  const auto known = of("known", {"--outline-noise-um", "0.1"}), unknown = of("unknown", {});
+  EXPECT_EQ(record("known")["outline_noise_um"], 0.1);
+  EXPECT_EQ(of("none", {"--outline-noise-um", "0"}), unknown);
+  EXPECT_EQ(of("jobs", {"--outline-noise-um", "0.1", "--jobs", "3"}), known);
+  const auto& parameters = known["population"]["parameters"];
+  // Four standard errors, and 1 % that the laws leave.
+  EXPECT_NEAR(parameters[1]["value"], log_median(4), 4 * double(parameters[1]["standard_error"]) + 0.01);
+  EXPECT_NEAR(parameters[0]["value"], std::log(6.3), 4 * double(parameters[0]["standard_error"]) + 0.005);
+  EXPECT_NEAR(known["population"]["spread_of_ln_modulus"], spread, 0.04);
+  EXPECT_GT(unknown["population"]["spread_of_ln_modulus"], known["population"]["spread_of_ln_modulus"]);
+  for (const auto& check : known["checks"]) EXPECT_TRUE(check["fits"]) << check.dump();
+  EXPECT_FALSE(unknown["checks"][1]["fits"]) << "d, which the errors of the outline increase";
+  const auto refused = [&](std::vector<std::string> options, const std::string& words) {
+    options.insert(options.begin(), {"population", "--condition", "a=a.rtdc"});
+    expect_sentence(call(options), words);
+  };
+  refused({"--outline-noise-um", "-0.1"}, "--outline-noise-um");
+  refused({"--outline-noise-um", "nan"}, "--outline-noise-um");
+  refused({"--outline-noise-um", "wide"}, "--outline-noise-um");
+  refused({"--outline-noise-um", "0.8"}, "is more than a tenth of it");
+  refused({"--outline-noise-um", "0.1", "--by", "deformation"}, "--outline-noise-um and --by deformation contradict");
+}
+
 TEST_F(PopulationCommand, ASpecificationGivesWhatItsOptionsGive) {
   synth("a.rtdc", {"recording.cells=80"});
   synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
   fs::create_directory(folder_.path() / "specs");
   // "z" comes first, as in the file: conditions are compared with it.
   write_file(folder_.path() / "specs" / "spec.toml",
-             "between_recordings = 0.03\npaired = true\nmax = {area_um = 500}\n[conditions]\nz = [\"../a.rtdc\"]\n"
+             "between_recordings = 0.03\noutline_noise_um = 0.05\npaired = true\nmax = {area_um = "
+             "500}\n[conditions]\nz = [\"../a.rtdc\"]\n"
              "a = [\"../b.rtdc\"]\n");
   ASSERT_EQ(call({"population", "specs/spec.toml", "-o", "spec", "--quiet", "--no-picture"}).exit_code, 0);
   ASSERT_EQ(call({"population", "--condition", "z=a.rtdc", "--condition", "a=b.rtdc", "--between-recordings", "0.03",
-                  "--paired", "--max", "area_um=500", "-o", "options", "--quiet", "--no-picture"})
+                  "--outline-noise-um", "0.05", "--paired", "--max", "area_um=500", "-o", "options", "--quiet",
+                  "--no-picture"})
                 .exit_code,
             0);
   auto spec = record("spec"), options = record("options");

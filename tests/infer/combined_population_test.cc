@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "infer/combined_moments.h"
+#include "measurement/outline_noise.h"
 #include "measurement/shape_in_pixels.h"
 #include "numeric/cell_random.h"
 
@@ -29,7 +30,8 @@ class CombinedPopulationTest : public ::testing::Test {
     return law;
   }
   /// Masks of the law's cells: outlines whose hulls have the modes of the table.
-  std::vector<MeasuredCell> pictures(const CombinedLaw& law, int count, std::uint64_t seed) const {
+  std::vector<MeasuredCell> pictures(const CombinedLaw& law, int count, std::uint64_t seed,
+                                     const OutlineNoise& noise = {}) const {
     CombinedMoments smooth(moduli_, sight_, pixel_um);
     std::vector<MeasuredCell> cells;
     for (const ShapeVector& shape : smooth.drawn_smooth(law.parameters(), std::size_t(count), seed)) {
@@ -37,9 +39,8 @@ class CombinedPopulationTest : public ::testing::Test {
       for (int k = 0; k < mode_count; ++k) modes[std::size_t(k)] = shape(int(ShapeFeature::first_mode) + k);
       CellRandom random(seed, cells.size(), Purpose::place);
       const double along = random.uniform() - 0.5, across = random.uniform() - 0.5;
-      cells.push_back(
-          {features_in_pixels(outline_of_hull_modes(modes, std::exp(shape(0)), 400), pixel_um, {along, across}),
-           sight_.flow});
+      const auto outline = displaced(outline_of_hull_modes(modes, std::exp(shape(0)), 400), noise, random);
+      cells.push_back({features_in_pixels(outline, pixel_um, {along, across}), sight_.flow});
     }
     return cells;
   }
@@ -155,6 +156,22 @@ TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLogs logs = log_means(found.law), true_logs = log_means(law);
   EXPECT_NEAR(logs.young, true_logs.young, 0.25);
   EXPECT_NEAR(logs.cortex, true_logs.cortex, 0.12);
+}
+
+TEST_F(CombinedPopulationTest, ErrorsOfTheOutlineArePartOfThePictures) {
+  const CombinedLaw law = usual_law();
+  const OutlineNoise noise{.deviation = 0.1};
+  const CombinedPopulation found =
+      fit_combined_population(moduli_, {.sight = sight_, .pixel_size_um = pixel_um, .outline_noise = noise},
+                              pictures(law, 600, 3, noise), [] {});
+  ASSERT_TRUE(found.fit.is_found);
+  const CombinedVector truth = law.parameters();
+  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
+                       CombinedParameter::cortex_fraction, CombinedParameter::axial_tension}) {
+    const int a = int(p);
+    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
+  }
+  EXPECT_LT(found.fit.misfit, 14) << "two degrees of freedom, 1 of 1000";
 }
 
 /// A gate at the median area: without it in the model the cells would seem larger, and the rest goes with the size.

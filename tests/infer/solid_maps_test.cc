@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../table/invented_elongated.h"
+#include "infer/outline_errors.h"
 
 namespace rheocyte::solid_maps_test {
 namespace {
@@ -27,7 +28,7 @@ class Maps : public testing::Test {
 /// The cells of the table, through pixels.
 TEST_F(Maps, HaveTheAreaAndTheMeasureOfTheCellWithThisElongation) {
   for (const StiffnessMeasure by : {StiffnessMeasure::asymmetry, StiffnessMeasure::odd_deformation}) {
-    const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, by);
+    const SolidMaps maps(liquid_, {20, 0.04, 1}, {pixel_um}, by);
     for (const double axial : {-0.03, 0.1, 0.3})
       for (const double modulus : {2.0, 6.0, 40.0}) {
         const InventedElongated cell{6.3, axial, modulus};
@@ -43,7 +44,7 @@ TEST_F(Maps, HaveTheAreaAndTheMeasureOfTheCellWithThisElongation) {
 }
 
 TEST_F(Maps, InAnotherChannelTheCellsScaleAsTheEquations) {
-  const SolidMaps maps(liquid_, {30, 0.16, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const SolidMaps maps(liquid_, {30, 0.16, 1}, {pixel_um}, StiffnessMeasure::asymmetry);
   const InventedElongated cell{6.3, 0.15, 2};
   const SolidFeatures seen = through_pixels(features_of(cell, 1.5), StiffnessMeasure::asymmetry, pixel_um);
   const auto map = maps.at(seen.modes.mode_2);
@@ -54,7 +55,7 @@ TEST_F(Maps, InAnotherChannelTheCellsScaleAsTheEquations) {
 }
 
 TEST_F(Maps, TheSlopesAreThoseOfTheValues) {
-  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, {pixel_um}, StiffnessMeasure::asymmetry);
   const auto map = maps.at(0.1);
   const double u = 1.83, step = 1e-5;
   for (const double x : {0.03, 0.6, 2.5}) {
@@ -69,7 +70,7 @@ TEST_F(Maps, TheSlopesAreThoseOfTheValues) {
 }
 
 TEST_F(Maps, TheErrorOfOneImageIsThatOfTheSingleEvent) {
-  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, {pixel_um}, StiffnessMeasure::asymmetry);
   const InventedElongated cell{6.3, 0.15, 3};
   const SolidFeatures seen = through_pixels(features_of(cell), StiffnessMeasure::asymmetry, pixel_um);
   const OutlineModes& modes = seen.modes;
@@ -99,7 +100,7 @@ TEST_F(Maps, TheErrorOfOneImageIsThatOfTheSingleEvent) {
 }
 
 TEST_F(Maps, TheCellBehindAMeasuredElongationHasIt) {
-  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::asymmetry);
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, {pixel_um}, StiffnessMeasure::asymmetry);
   const auto cell = maps.cell(0.12, std::log(6.1), 0.7);
   EXPECT_NEAR(maps.seen(cell).modes.mode_2, 0.12, 2e-3);  // of the nearest node's radius
   EXPECT_NEAR(cell.state.radius_um, 6.1, 1e-9);
@@ -108,8 +109,32 @@ TEST_F(Maps, TheCellBehindAMeasuredElongationHasIt) {
   EXPECT_GT(range.upper, 0.25);
 }
 
+TEST_F(Maps, ErrorsOfTheOutlineAreInTheMeansAndInTheNoise) {
+  const auto by = StiffnessMeasure::asymmetry;
+  const SolidMaps without(liquid_, {20, 0.04, 1}, {pixel_um}, by), none(liquid_, {20, 0.04, 1}, {pixel_um, {0}}, by),
+      with(liquid_, {20, 0.04, 1}, {pixel_um, {0.1}}, by);
+  const InventedElongated cell{6.3, 0.15, 3};
+  const double u = std::log(cell.radius_um);
+  const auto of = [&](const SolidMaps& maps, double elongation) {
+    const auto map = maps.at(elongation);
+    return map->at(u, std::log(cell.modulus_kPa / 15) - map->soft_end(u).log_modulus);
+  };
+  SolidFeatures seen = through_pixels(features_of(cell), by, pixel_um);
+  const MapPoint p = of(without, seen.modes.mode_2);
+  EXPECT_EQ(of(none, seen.modes.mode_2).measure, p.measure);
+  EXPECT_EQ(of(none, seen.modes.mode_2).measure_variance, p.measure_variance);
+  const ShapeErrors added =
+      OutlineErrors(solids_.table(), 1, pixel_um, {0.1}).at(std::log(cell.area_um2()), cell.mode_2(), cell.mode_3());
+  const MapPoint off = of(with, seen.modes.mode_2 + added.bias(feature_of_mode(2)));
+  EXPECT_NEAR(off.measure, seen.modes.mode_3 + added.bias(feature_of_mode(3)), 1e-4);
+  EXPECT_NEAR(off.log_area, seen.log_area + added.bias(int(ShapeFeature::area_um2)), 3e-4);
+  // The slopes by which the elongation is eliminated, times its noise, come on top.
+  EXPECT_GT(off.measure_variance, p.measure_variance + added.covariance(feature_of_mode(3), feature_of_mode(3)));
+  EXPECT_LT(off.measure_variance, p.measure_variance + 2 * added.covariance(feature_of_mode(3), feature_of_mode(3)));
+}
+
 TEST_F(Maps, ByDeformationTheCellsHaveNoElongationOfTheirOwn) {
-  const SolidMaps maps(liquid_, {20, 0.04, 1}, pixel_um, StiffnessMeasure::deformation);
+  const SolidMaps maps(liquid_, {20, 0.04, 1}, {pixel_um}, StiffnessMeasure::deformation);
   const InventedElongated cell{6.3, 0, 2};
   const SolidFeatures seen = through_pixels(features_of(cell), StiffnessMeasure::deformation, pixel_um);
   const auto map = maps.at(0);

@@ -1,4 +1,4 @@
-// A camera sees the silhouette; errors of a segmentation have the size and the length that are asked for.
+// A camera sees the silhouette.
 #include "synth/outline.h"
 
 #include <gtest/gtest.h>
@@ -31,39 +31,6 @@ TEST(Silhouette, HidesADentBehindItsRim) {
   const auto outline = silhouette(meridian);
   EXPECT_EQ(outline(4, 0), -3) << "the rear pole is seen at the rim";
   EXPECT_EQ(outline.col(0).maxCoeff(), 3);
-}
-
-TEST(Displacement, HasTheWantedSizeAndLength) {
-  const auto outline = silhouette(sphere(10, 361));
-  double squares = 0, half = 0, far = 0;
-  constexpr int cells = 300;
-  int count = 0;
-  for (int cell = 0; cell < cells; ++cell) {
-    CellRandom random(3, static_cast<std::uint64_t>(cell), Purpose::contour);
-    const auto moved = displaced(outline, {0.2, 1.0}, random);
-    const Eigen::VectorXd offset = moved.rowwise().norm().array() - 10;
-    const double step = 2 * pi * 10 / double(moved.rows());
-    const auto lag = [&](double length) {
-      const auto shift = Eigen::Index(std::lround(length / step));
-      double sum = 0;
-      for (Eigen::Index i = 0; i < offset.size(); ++i) sum += offset(i) * offset((i + shift) % offset.size());
-      return sum;
-    };
-    squares += offset.squaredNorm();
-    half += lag(2);
-    far += lag(8);
-    count += int(offset.size());
-  }
-  // About 300 cells x 60 um / (4 um) independent values; the statistical error is 2 %.
-  EXPECT_NEAR(std::sqrt(squares / count), 0.2, 0.01);
-  EXPECT_NEAR(half / squares, std::exp(-1), 0.06) << "a smoothing Gaussian of 1 um: correlation exp(-s^2 / 4)";
-  EXPECT_NEAR(far / squares, 0, 0.05);
-}
-
-TEST(Displacement, NoneLeavesTheOutlineAsItIs) {
-  const auto outline = silhouette(sphere(10, 91));
-  CellRandom random(1, 1, Purpose::contour);
-  EXPECT_EQ(displaced(outline, {}, random), outline);
 }
 
 }  // namespace
