@@ -55,6 +55,7 @@ def moduli(
     patience: float | None = None,
     fit_tension: bool = False,
     axial_tension_Pa: float | None = None,
+    outline_noise_um: float | None = None,
     only_figure: bool = False,
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...

@@ -78,7 +78,9 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
       section_(seen_in),
       section_error_factor_(table.section_error_factor()),
       pixel_size_um_(settings.pixel_size_um),
-      pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um),
+      outline_noise_{.deviation = options.outline_noise_um.value_or(0)},
+      pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um,
+              outline_noise_.scaled(table.simulated.width_um / flow_.width_um)),
       moduli_(table.between, table.simulated,
               {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
       tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {}
@@ -98,8 +100,10 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
 
 Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
                                            const std::function<void()>& goes_on) const {
-  const SeenPopulation seen{
-      .sight = sight(median_of(cells).flow), .pixel_size_um = pixel_size_um_, .leaves_out_other_sizes = false};
+  const SeenPopulation seen{.sight = sight(median_of(cells).flow),
+                            .pixel_size_um = pixel_size_um_,
+                            .leaves_out_other_sizes = false,
+                            .outline_noise = outline_noise_};
   const CombinedPopulation population = fit_combined_population(moduli_, seen, cells, goes_on);
   return population.fit.is_found ? population.bend : Eigen::VectorXd();
 }

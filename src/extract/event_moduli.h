@@ -70,6 +70,7 @@ class EventModuli {
   ChannelFlow flow_;
   Section section_;
   double section_error_factor_, pixel_size_um_;
+  OutlineNoise outline_noise_;
   RenderedErrors pixels_;
   BulkCortexFit moduli_;
   AxialTension tension_;

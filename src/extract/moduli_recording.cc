@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -56,9 +57,16 @@ class Fits {
   /// of the common one.
   void survey(const Recording& recording, const ModuliOptions& options) {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
+    if (options.outline_noise_um) check_outlines(recording, cells, *options.outline_noise_um);
     median_ = moduli_.median_cell(cells);
     survey_tension(cells);
     common_errors_ = moduli_.common_errors(cells);
+  }
+
+  static void check_outlines(const Recording& recording, std::span<const MeasuredCell> cells, double noise_um) {
+    if (cells.empty()) return;
+    const double log_area = median_of(cells).shape(int(ShapeFeature::area_um2));
+    check_outline_noise(recording.file(), noise_um, std::exp(log_area / 2) * std::numbers::inv_sqrtpi);
   }
 
   void survey_tension(const std::vector<MeasuredCell>& cells) {
@@ -84,6 +92,7 @@ class Fits {
                     options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
                                                                         : "the tension is that of the table"),
         section_text(),
+        fmt::format("errors of the outline beside those of the pixels: {:g} um", options.outline_noise_um.value_or(0)),
         fmt::format("direction of the cells: {}", direction_text(direction_))};
     for (const auto& line : tension_lines(axial_)) remarks.push_back(line);
     const auto settings = events_.settings().lines();

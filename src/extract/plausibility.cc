@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "numeric/quantile.h"
 
@@ -54,6 +55,14 @@ void check_viscosity(double mPas, const std::string& name) {
       fmt::format("{}: {:g} mPa s is less than the viscosity of any liquid that cells live in (water at 37 degC has "
                   "0.69 mPa s); {:g} Pa s are {:g} mPa s.",
                   name, mPas, mPas, 1000 * mPas));
+}
+
+void check_outline_noise(const std::filesystem::path& recording, double noise_um, double radius_um) {
+  constexpr double most_of_radius = 0.1;  // displacements that are not small against the radius are no noise
+  if (noise_um <= most_of_radius * radius_um) return;
+  refuse_path(recording, fmt::format("its outlines have a median radius of {:.3g} um, and --outline-noise-um {:g} is "
+                                     "more than a tenth of it; give what beads tell, in um.",
+                                     radius_um, noise_um));
 }
 
 std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um) {

@@ -1,5 +1,6 @@
 // What no laboratory measures, and what in a recording contradicts itself: mostly units that were mistaken.
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ inline constexpr double modulus_per_reynolds = 0.007;
 
 /// Water has 0.28 where it boils.
 inline constexpr double min_viscosity_mPas = 0.2;
+
+/// UserError of a recording whose outlines are so small (median radius) that errors of theirs are no noise any more.
+void check_outline_noise(const std::filesystem::path& recording, double noise_um, double radius_um);
 
 /// UserError if a viscosity (mPa s) that somebody has given is less than that of any liquid that cells live in. `name`
 /// stands for its place in the message.

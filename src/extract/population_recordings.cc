@@ -12,6 +12,7 @@
 #include "case/refuse_path.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "extract/plausibility.h"
 #include "extract/shared_spreads.h"
 #include "numeric/quantile.h"
 
@@ -255,16 +256,6 @@ void PopulationAnalysis::check_new(const RecordingReport& recording, const Popul
   first_areas_.push_back(std::move(first));
 }
 
-void PopulationAnalysis::check_outline_noise(const PopulationEvents& events, const RecordingReport& recording) const {
-  constexpr double most_of_radius = 0.1;  // displacements that are not small against the radius are no noise
-  const double radius_um = std::sqrt(median_of(events.of(SeenMeasure::area_um2)) / std::numbers::pi);
-  if (options_.outline_noise_um.value_or(0) > most_of_radius * radius_um)
-    refuse_path(recording.recording,
-                fmt::format("its outlines have a median radius of {:.3g} um, and --outline-noise-um "
-                            "{:g} is more than a tenth of it; give what beads tell, in um.",
-                            radius_um, *options_.outline_noise_um));
-}
-
 RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
                                               const PopulationEvents& events) const {
   RecordingReport r;
@@ -294,7 +285,8 @@ const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_
     refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
                                                   : "has no event inside the gates (" + events.gates + ").");
   check_new(r, events);
-  check_outline_noise(events, r);
+  check_outline_noise(r.recording, options_.outline_noise_um.value_or(0),
+                      std::sqrt(median_of(events.of(SeenMeasure::area_um2)) / std::numbers::pi));
   model_->fit(events, r, goes_on);
   return recordings_.emplace_back(std::move(r));
 }

@@ -91,7 +91,6 @@ class PopulationAnalysis {
  private:
   RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
   void check_new(const RecordingReport& recording, const PopulationEvents& events);
-  void check_outline_noise(const PopulationEvents& events, const RecordingReport& recording) const;
 
   PopulationOptions options_;
   std::vector<PopulationCondition> conditions_;

@@ -49,6 +49,14 @@ Setting pixel_size(std::optional<double>& um) {
                 setting("pixel_size_um", "Pixel size", &um, "", "from the recording"));
 }
 
+Setting outline_noise(std::optional<double>& um) {
+  return of_key(*find_key(synth_keys(), "noise.contour_um"),
+                setting("outline_noise_um", "Outline noise", &um,
+                        "standard deviation of the error of the segmented outline along its normal, beside that of the "
+                        "pixels, as beads tell it; smooth over some 0.7 um of the outline",
+                        "0"));
+}
+
 Setting patience(std::optional<double>& seconds) {
   Setting patience =
       in_unit("s", setting("patience", "Patience", &seconds,
@@ -161,7 +169,7 @@ Settings settings_of(ModuliOptions& o) {
       together({seen_section(o.section)}, settings_of(o.measuring)),
       {setting("fit_tension", "Fit tension", &o.fit_tension,
                "the tension of the cortex, too, by a table with several of them; tables of elongated cells always do"),
-       tension,
+       tension, outline_noise(o.outline_noise_um),
        setting("only_figure", "Only figure", &o.only_figure,
                "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9")});
 }
@@ -193,11 +201,7 @@ Settings settings_of(PopulationOptions& o) {
        std::move(between),
        setting("shared_spread", "Shared spread", &o.shared_spread,
                "of solids: one spread of radius and modulus for all recordings of a condition"),
-       of_key(*find_key(synth_keys(), "noise.contour_um"),
-              setting("outline_noise_um", "Outline noise", &o.outline_noise_um,
-                      "standard deviation of the error of the segmented outline along its normal, beside that of the "
-                      "pixels, as beads tell it; smooth over some 0.7 um of the outline",
-                      "0")),
+       outline_noise(o.outline_noise_um),
        of_type("TABLE", {},
                setting("table", "Table", &o.table,
                        "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "

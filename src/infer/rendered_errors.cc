@@ -26,12 +26,6 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
   return modes;
 }
 
-ShapeErrors rendered(const CombinedState& state, double pixel_size_um, int draws, std::uint64_t number) {
-  CellRandom random(1, number, Purpose::picture);
-  const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
-  return errors_in_pixels(outline, pixel_size_um, draws, random);
-}
-
 /// Random numbers of its own for each cell: what is left of the mean over the places is not the same for all cells of a
 /// recording. By seven digits, so that they do not depend on the last ones of a machine's logarithm.
 std::uint32_t number_of(double log_area) { return std::bit_cast<std::uint32_t>(float(log_area)); }
@@ -47,8 +41,13 @@ CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates 
 
 }  // namespace
 
-RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws)
-    : table_(table), pixel_size_um_(pixel_size_um), box_(table.box()), is_over_mode_3_(table.is_elongated()) {
+RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, const OutlineNoise& noise_um,
+                               int draws)
+    : table_(table),
+      pixel_size_um_(pixel_size_um),
+      noise_um_(noise_um),
+      box_(table.box()),
+      is_over_mode_3_(table.is_elongated()) {
   if (is_over_mode_3_) {
     nodes_ = {4, 3, 5, 1, 4};
     box_.least(x_progress) = std::max(box_.least(x_progress), std::log(min_mode_3));
@@ -65,9 +64,16 @@ RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_
       if (n > 1) cell(axis) = node_place(axis, double(rest % n) / double(n - 1));
       rest /= n;
     }
-    errors_.push_back(rendered(nearest_state(table, cell), pixel_size_um, draws, number));
+    errors_.push_back(rendered(nearest_state(table, cell), draws, number));
   }
 }
+
+ShapeErrors RenderedErrors::rendered(const CombinedState& state, int draws, std::uint64_t number) const {
+  CellRandom random(1, number, Purpose::picture);
+  const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
+  return errors_in_pixels(outline, pixel_size_um_, draws, random, noise_um_);
+}
+
 std::size_t RenderedErrors::count_of(const Nodes& nodes) {
   return std::accumulate(nodes.begin(), nodes.end(), std::size_t{1}, std::multiplies<>());
 }
@@ -111,13 +117,12 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
 
 ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
   const CombinedState state = table_.at(cell);
-  return state.inside ? rendered(state, pixel_size_um_, draws_of_one_cell, number_of(state.value(log_area_row)))
-                      : at(cell);
+  return state.inside ? rendered(state, draws_of_one_cell, number_of(state.value(log_area_row))) : at(cell);
 }
 
 ShapeErrors RenderedErrors::of_outline(const ShapeVector& shape) const {
   CellRandom random(1, number_of(shape(int(ShapeFeature::area_um2))), Purpose::picture);
-  return errors_in_pixels(outline_of(shape), pixel_size_um_, draws_of_mean, random);
+  return errors_in_pixels(outline_of(shape), pixel_size_um_, draws_of_mean, random, noise_um_);
 }
 
 Eigen::MatrixX2d outline_of(const ShapeVector& smooth) {

@@ -6,11 +6,13 @@
 // fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "infer/bulk_cortex_fit.h"
 #include "infer/square_law.h"
+#include "measurement/outline_noise.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -21,8 +23,9 @@ namespace rheocyte {
 class RenderedErrors {
  public:
   /// The table must outlive it. The pixel (um) as wide as in the table's channel: pixel size x table's width /
-  /// recording's width.
-  RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, int draws = 200);
+  /// recording's width; so the errors of the outlines.
+  RenderedErrors(const CombinedInterpolation& table, double pixel_size_um, const OutlineNoise& noise_um = {},
+                 int draws = 200);
 
   /// Between those: within a fifth of the noise of a picture.
   ShapeErrors at(const CellCoordinates& cell) const;
@@ -35,6 +38,7 @@ class RenderedErrors {
  private:
   using Nodes = std::array<int, coordinate_count>;
   static std::size_t count_of(const Nodes& nodes);
+  ShapeErrors rendered(const CombinedState& state, int draws, std::uint64_t number) const;
 
   /// In which the errors are linear: pixels take a fraction of the third mode of elongated cells, not of its logarithm.
   double scale(int axis, double coordinate) const;
@@ -42,6 +46,7 @@ class RenderedErrors {
 
   const CombinedInterpolation& table_;
   double pixel_size_um_;
+  OutlineNoise noise_um_;
   CellBox box_;
   bool is_over_mode_3_ = false;
   Nodes nodes_{6, 3, 6, 1, 1};  ///< along each coordinate

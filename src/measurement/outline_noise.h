@@ -10,6 +10,8 @@ namespace rheocyte {
 struct OutlineNoise {
   double deviation = 0;      ///< standard deviation of the displacement along the normal; 0: none
   double correlation = 0.7;  ///< standard deviation of the Gaussian that smooths it along the outline; usual one in um
+
+  OutlineNoise scaled(double lengths) const { return {lengths * deviation, lengths * correlation}; }
 };
 
 /// The same polygon at equal distances along its length, displaced; by a negative deviation to the other side. Lengths
