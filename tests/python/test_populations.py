@@ -155,3 +155,13 @@ def test_cells_with_a_cortex_have_a_column_for_each_quantity(record):
 def test_the_picture_of_cells_with_a_cortex_has_a_column_for_each_quantity(record):
     titles = [axes.get_title(loc="left") for axes in shown(with_cortex(record)).plot().axes]
     assert titles == ["E + E2D/r0 (kPa)", "E2D (mN/m)", "ratio", "ratio"]
+
+
+def test_errors_of_the_outline_are_told_and_must_be_small(tmp_path):
+    spec = {"recording": {"cells": 60}, "channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+            "cell": {"radius_um": 6, "bulk": {"young_modulus_kPa": 4}}, "noise": {"contour_um": 0.05}}
+    rheocyte.synth(spec, tmp_path / "a.rtdc")
+    found = rheocyte.population({"a": tmp_path / "a.rtdc"}, outline_noise_um=0.05)
+    assert found.record["outline_noise_um"] == 0.05
+    with pytest.raises(UserError, match="outline_noise_um 2 is more than a tenth of it"):
+        rheocyte.population({"a": tmp_path / "a.rtdc"}, outline_noise_um=2)
