@@ -44,9 +44,13 @@ WallTable wall_radii_um(const Case& c) {
   return wall;
 }
 
-// Past steeper ones no mesh follows large cells (docs/theory-time.md, eq:wall). The rounding admits lengths as they are
-// advised, with four digits.
-constexpr double steepest_wall = 1, rounding_of_advice = 1e-3, max_widening = 5;
+/// Past steeper ones no mesh follows large cells (docs/theory-time.md, eq:wall). The side walls of a chip are far from
+/// a cell on the axis, and their corners are round (sec. 5).
+double steepest_wall(const Case& c) { return is_duct(c.channel.section) && is_centred(c.cell) ? 10 : 1; }
+
+/// Admits lengths as they are advised, with four digits.
+constexpr double rounding_of_advice = 1e-3;
+constexpr double max_widening = 5;
 constexpr std::size_t most_places = 1000;
 
 void check_places(const Case& c, const KeyReading& keys) {
@@ -68,14 +72,15 @@ void check_places(const Case& c, const KeyReading& keys) {
 
 void check_slopes(const Case& c, const KeyReading& keys) {
   const WallTable wall = wall_radii_um(c);
+  const double steepest = steepest_wall(c);
   for (std::size_t i = 1; i < wall.x.size(); ++i) {
     const double length = wall.x[i] - wall.x[i - 1], change = std::abs(wall.radius[i] - wall.radius[i - 1]);
-    if (change <= (1 + rounding_of_advice) * steepest_wall * length) continue;
+    if (change <= (1 + rounding_of_advice) * steepest * length) continue;
     keys.refuse(
         wall_key(c, keys),
         fmt::format("{} changes by {:.4g} um between x = {:.4g} and {:.4g} um: no mesh follows large cells past "
                     "walls steeper than {:g} : 1; give this change a length of at least {:.4g} um.",
-                    radii_text(c, keys), change, wall.x[i - 1], wall.x[i], steepest_wall, change / steepest_wall));
+                    radii_text(c, keys), change, wall.x[i - 1], wall.x[i], steepest, change / steepest));
   }
 }
 
