@@ -141,6 +141,8 @@ class Differences:
                 inner = one if key in ("errors", "standard_errors") else None
                 scale = (scales or {}).get(key, 0.0)
                 scale = 1000 * scale if isinstance(scale, int | float) else 0.0
+                if key == "estimated_error":  # relative to the deformation
+                    scale = 1.0
                 self.one_json(f"{place}/{key}", one[key], other[key], scale, inner)
         elif isinstance(one, list):
             if len(one) != len(other):
