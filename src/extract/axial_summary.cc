@@ -32,7 +32,8 @@ std::vector<std::string> tension_lines(const AxialSummary& s) {
   const auto& [value, lower, upper, misfit, cells] = s.common;
   const double wall = s.wall_stress_Pa;
   if (s.is_given)
-    return {fmt::format("axial tension: {:.4g} Pa as given, {:.3g} {}", value, value / wall, wall_text(wall))};
+    return {fmt::format("axial tension: {:.4g} Pa as given{}", value,
+                        std::isfinite(wall) ? fmt::format(", {:.3g} {}", value / wall, wall_text(wall)) : "")};
   if (!s.common.is_found())
     return {
         fmt::format("axial tension: not found, because only {} events have the shape of a cell of the table, and "

@@ -100,6 +100,7 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
 
 Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
                                            const std::function<void()>& goes_on) const {
+  if (cells.empty()) return {};
   const SeenPopulation seen{.sight = sight(median_of(cells).flow),
                             .pixel_size_um = pixel_size_um_,
                             .leaves_out_other_sizes = false,

@@ -94,6 +94,8 @@ std::string moduli_json(const std::filesystem::path& recording, const std::strin
                              {"version", version},
                              {"recording", recording.string()},
                              {"table", table},
+                             {"outline_noise_um", s.outline_noise_um},
+                             {"gates", s.gates},
                              {"events", counts_of(s)},
                              {"young_modulus_kPa", quartiles_of(s.young_kPa, s.resolved())},
                              {"cortex_modulus_mN_per_m", quartiles_of(s.cortex_mN_per_m, s.resolved())},

@@ -42,6 +42,7 @@ class Fits {
         simulated_exponent_(table.simulated.exponent),
         section_(table.section_of(recording, options.section)),
         is_told_(options.section),
+        outline_noise_um_(options.outline_noise_um.value_or(0)),
         solids_(std::string(), section_),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
@@ -92,7 +93,7 @@ class Fits {
                     options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
                                                                         : "the tension is that of the table"),
         section_text(),
-        fmt::format("errors of the outline beside those of the pixels: {:g} um", options.outline_noise_um.value_or(0)),
+        fmt::format("errors of the outline beside those of the pixels: {:g} um", outline_noise_um_),
         fmt::format("direction of the cells: {}", direction_text(direction_))};
     for (const auto& line : tension_lines(axial_)) remarks.push_back(line);
     const auto settings = events_.settings().lines();
@@ -136,6 +137,7 @@ class Fits {
     s.axial = axial_;
     s.median_cell = median_;
     const ExtractSettings& settings = events_.settings();
+    s.outline_noise_um = outline_noise_um_;
     s.gates = events_.gates().description();
     s.warnings = events_.recording().remarks();
     s.warnings.insert(s.warnings.end(), settings.warnings.begin(), settings.warnings.end());
@@ -243,6 +245,7 @@ class Fits {
   double simulated_exponent_;
   Section section_;
   bool is_told_;  ///< by the user
+  double outline_noise_um_;
   ModulusTables solids_;
   const ShapeMap* shapes_of_solids_;
   const ElongatedLiquid* elongated_solids_;

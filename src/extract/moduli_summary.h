@@ -23,6 +23,7 @@ struct ModuliSummary {
   std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
   Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
+  double outline_noise_um = 0;                            ///< as it was given
   std::string gates;                                      ///< limits of the events that count; empty: all
   std::vector<std::string> warnings;
   AxialSummary axial;
@@ -31,8 +32,8 @@ struct ModuliSummary {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.gates, s.warnings, s.axial,
-                    s.median_cell);
+    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.outline_noise_um, s.gates, s.warnings,
+                    s.axial, s.median_cell);
   }
 
   std::size_t events() const;

@@ -19,7 +19,7 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
   if (options.model.empty() || options.model == "solid") {
     if (options.section)
       throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");
-    if (options.outline_noise_um && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
+    if (options.outline_noise_um.value_or(0) > 0 && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
       throw UserError(
           fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
                       "of whole outlines alone. Leave one of them out.",

@@ -79,7 +79,9 @@ std::vector<std::string> differences_within(const std::vector<RecordingReport>& 
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     std::set<std::array<double, 4>> kinds;
     for (const auto& r : recordings)
-      if (r.condition == c) kinds.insert({r.flow.width_um, r.flow.rate_ul_s, r.flow.exponent, r.pixel_size_um});
+      // An exponent to as many digits as the temperatures of recordings of one medium leave.
+      if (r.condition == c)
+        kinds.insert({r.flow.width_um, r.flow.rate_ul_s, std::round(100 * r.flow.exponent), r.pixel_size_um});
     if (kinds.size() > 1)
       warnings.push_back(fmt::format(
           "{}: its recordings differ in channel, flow rate, medium or pixels; each is read by a map of its own.",

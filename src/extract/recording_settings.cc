@@ -53,7 +53,7 @@ Setting outline_noise(std::optional<double>& um) {
   return of_key(*find_key(synth_keys(), "noise.contour_um"),
                 setting("outline_noise_um", "Outline noise", &um,
                         "standard deviation of the error of the segmented outline along its normal, beside that of the "
-                        "pixels, as beads tell it; smooth over some 0.7 um of the outline",
+                        "pixels, as beads tell it (docs/populations.md); smooth over some 0.7 um of the outline",
                         "0"));
 }
 

@@ -157,6 +157,7 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
     Eigen::VectorXd x = misfit.parameters();
     const auto& summary = solver.Solve(misfit, &x);
     cell = misfit.cell_at(x.data());
+    if (!cell.allFinite() || !std::isfinite(summary.final_cost)) return {start, HUGE_VAL};
     const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
                           beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
     const auto outside = [&](int coordinate) {
@@ -290,6 +291,7 @@ BulkCortexFit::Covariance BulkCortexFit::covariance_at(const ModuliMisfit& misfi
 }
 
 ModuliEstimate BulkCortexFit::estimate_of(ModuliMisfit& misfit, const Candidate& best) const {
+  if (!std::isfinite(best.chi_squared)) return {.status = ModuliStatus::outside_table};
   const CombinedState state = table_.at(best.cell.cwiseMax(table_.box().least).cwiseMin(table_.box().greatest));
   const Covariance covariance = covariance_at(misfit, best.cell);
   const auto error_of = [&](const CellCoordinates& gradient) { return std::sqrt(gradient.dot(covariance * gradient)); };

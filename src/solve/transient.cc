@@ -270,7 +270,7 @@ struct OtherRun {
   std::string fraction;  ///< of the way
   std::vector<TimePoint> steps = {};
   StateNumbers numbers = {};   ///< of the last state
-  double greatest_change = 0;  ///< of a deformation at an output, over the greatest one
+  double greatest_change = 0;  ///< of a deformation at an output, over the greatest one; NaN without outputs
 };
 
 OtherRun run_on(const Resolution& resolution, const Problem& problem, const TimeRun& run,
@@ -281,6 +281,9 @@ OtherRun run_on(const Resolution& resolution, const Problem& problem, const Time
   const TimeObserver observer = noting(compared, {.frame = {}, .step = note_step, .compared = {}});
   TimeFollower follower(problem, run, resolution, observer, limits);
   const StationaryState end = follower.follow(nullptr);
+  // Of a run that went on from a checkpoint the last outputs are there alone.
+  if (end.outcome.status == Status::converged && compared.size() > deformations.size())
+    compared.erase(compared.begin(), compared.end() - std::ptrdiff_t(deformations.size()));
   double greatest = 0, change = 0;
   for (std::size_t i = 0; i < std::min(deformations.size(), compared.size()); ++i) {
     greatest = std::max(greatest, deformations[i]);
@@ -289,10 +292,13 @@ OtherRun run_on(const Resolution& resolution, const Problem& problem, const Time
   return {resolution.degree, end.outcome.status, follower.fraction(), std::move(steps), end, change / greatest};
 }
 
-std::string told(const OtherRun& other, double change) {
-  return fmt::format(
-      " A mesh of degree {} changes its last deformation by {:.2g} %, and none by more than {:.2g} % of the greatest.",
-      other.degree, 100 * change, 100 * other.greatest_change);
+std::string told(const OtherRun& other, double deformation) {
+  const double change = std::abs(other.numbers.shape.deformation - deformation) / deformation;
+  std::string text =
+      fmt::format(" A mesh of degree {} changes its last deformation by {:.2g} %", other.degree, 100 * change);
+  if (std::isfinite(other.greatest_change))
+    text += fmt::format(", and none by more than {:.2g} % of the greatest", 100 * other.greatest_change);
+  return text + ".";
 }
 
 std::string told_of_failure(const OtherRun& other) {
@@ -321,7 +327,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
       is_mesh_given(run) || (is_known && (change <= run.mesh_accuracy || result.stability_margin < 0));
   const bool is_finest = finer.degree == coarse.degree || finer.degree > max_time_degree_of(problem);
   if (suffices || is_finest || coarse.status == Status::stopped) {
-    result.outcome.message += is_known ? told(coarse, change) : told_of_failure(coarse);
+    result.outcome.message += is_known ? told(coarse, d) : told_of_failure(coarse);
     return is_known ? coarse.steps : std::vector<TimePoint>();
   }
   const OtherRun fine = run_on(finer, problem, run, deformations, limits);
@@ -333,7 +339,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
   }
   if (fine.status != Status::converged) {
     const bool is_told = is_known && !is_stopped;
-    result.outcome.message += is_told ? told(coarse, change) : told_of_failure(fine);
+    result.outcome.message += is_told ? told(coarse, d) : told_of_failure(fine);
     return is_told ? coarse.steps : std::vector<TimePoint>();
   }
   std::vector<StateNumbers> ladder{result, fine.numbers};
@@ -346,7 +352,7 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
   result.estimated_error = change_to_fine + left * d_fine / size;
   result.errors = distance(result, fine.numbers);
   add_errors(1, errors_of_last(ladder, left), result.errors);
-  result.outcome.message += told(fine, change_to_fine);
+  result.outcome.message += told(fine, d);
   return fine.steps;
 }
 
@@ -355,7 +361,8 @@ std::vector<TimePoint> estimate_error(const Problem& problem, const TimeRun& run
 StationaryState transient(const Problem& problem, const TimeRun& run, const TimeObserver& observer,
                           const TimeStart* from, const WorkLimits& limits) {
   const Resolution resolution = from ? from->state.resolution : resolution_of(problem, run, limits);
-  const bool estimates = run.estimates_error && !from;
+  // What begins with the state of another case has no coarser counterpart.
+  const bool estimates = run.estimates_error && !(from && from->units);
   Deformations deformations;
   TimeFollower follower(problem, run, resolution, estimates ? noting(deformations, observer) : observer, limits);
   StationaryState result = follower.follow(from);

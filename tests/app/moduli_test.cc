@@ -246,6 +246,13 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   EXPECT_NEAR(summary.at("axial_tension").at("value_Pa").get<double>(), 1000, 100);
   EXPECT_LT(summary.at("axial_tension").at("lower_Pa"), summary.at("axial_tension").at("upper_Pa"));
   EXPECT_EQ(summary.at("slopes_between_cells").size(), 3U);
+  // Gates that leave no event, and a tension that no cell of the table has.
+  const Ended none = moduli({folder.string(), "--viscosity-mPas", "12", "--min", "index=100"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("no event inside the gates has the shape"), std::string::npos) << none.err;
+  const Ended impossible = moduli({folder.string(), "--viscosity-mPas", "12", "--axial-tension-Pa", "-10000"});
+  EXPECT_EQ(impossible.exit_code, 3);
+  EXPECT_NE(impossible.out.find("40 outside-table"), std::string::npos) << impossible.out;
   const auto& median = summary.at("median_cell");
   EXPECT_EQ(median.at("cells"), events);
   EXPECT_NEAR(median.at("stiffness_kPa").get<double>() / 3.6, 1, 0.15);

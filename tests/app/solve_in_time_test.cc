@@ -152,6 +152,15 @@ TEST_F(InTime, ARestartContinuesToTheBit) {
   EXPECT_TRUE(text("second/contours.csv").starts_with(text("first/contours.csv")));
   ASSERT_EQ(run(solve("first", {"--set", "time.end_us=60", "--continue", at("first")})).exit_code, 0);  // in place
   EXPECT_EQ(text("first/history.csv"), text("second/history.csv"));
+  // Its error is that of a run that was not interrupted, but for the step that ended at 20 us.
+  ASSERT_EQ(run(solve("whole", {"--set", "time.end_us=60"})).exit_code, 0);
+  const auto whole = nlohmann::json::parse(text("whole/result.json"));
+  for (const auto* name : {"first/result.json", "third/result.json"}) {
+    const auto continued = nlohmann::json::parse(text(name));
+    const double error = whole["estimated_error"];
+    EXPECT_NEAR(continued["estimated_error"].get<double>(), error, 0.05 * error) << name;
+    EXPECT_EQ(continued["time"]["comparison"], whole["time"]["comparison"]) << name;
+  }
 }
 
 TEST_F(InTime, AKilledRunGoesOnFromItsHiddenFolder) {
