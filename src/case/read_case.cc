@@ -130,7 +130,8 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   if (!has_radius) refuse("is for single cells; leave it out of tables");
   if (camera_of(c.channel).degrees != (offset[0] != 0 ? 90 : 0))
     refuse(offset[0] != 0 ? "is along the width, along which the camera must look: give channel.camera_degree = 90"
-                          : "is along the height, along which the camera must look: give channel.camera_degree = 0");
+                          : "is along the height, along which the camera must look: leave channel.camera and "
+                            "channel.camera_degree out");
   if (c.flow.drive != Drive::rate) refuse("is for a given flow rate; give flow.rate_ul_per_s");
   if (c.cell.bulk.law == BulkLaw::none)
     refuse("is for cells with an elastic interior; the turning surface of a shell would drag its liquid round");

@@ -97,7 +97,7 @@ TEST(ReadCase, ACellOffTheAxisIsSeenAlongItsOffsetAndDoesNotTouchTheWall) {
   EXPECT_EQ(refusal(square, {"cell.offset_um=[1.5, 0]", "channel.camera_degree=90"}), "accepted");
   for (const auto& [settings, reason] :
        {std::pair<std::vector<std::string>, std::string>{{"cell.offset_um=[1.5, 0]"}, "channel.camera_degree = 90"},
-        {{"cell.offset_um=[0, 1.5]", "channel.camera=diagonal"}, "leave channel.camera out"},
+        {{"cell.offset_um=[0, 1.5]", "channel.camera=diagonal"}, "leave channel.camera and channel.camera_degree out"},
         {{"cell.offset_um=[1, 1]"}, "no symmetry is left"},
         {{"cell.offset_um=[1]"}, "two numbers"},
         {{"cell.offset_um=[0, 1.9]"}, "at most 1.84 um"}})
