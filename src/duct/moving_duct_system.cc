@@ -58,17 +58,22 @@ void MovingDuctSystem::move_surface(int e) {
   }
 }
 
+Eigen::MatrixX3d MovingDuctSystem::places_in_ball(int e) const {
+  const DuctPoint centre(0, space().mesh().geometry().shape().offset, 0);
+  const auto& nodes = space().nodes().of_element[e];
+  Eigen::MatrixX3d places(nodes.size(), 3);
+  for (int i = 0; i < places.rows(); ++i) places.row(i) = (space().node_points()[nodes[i]] - centre).transpose();
+  return places;
+}
+
 /// Along the rotation of the undeformed ball.
 Eigen::MatrixX3d MovingDuctSystem::turning_velocity(int e) const {
   const int n = space().reference().degree() + 1, all = n * n * n;
   const MatrixXd slopes_1d = space().reference().lagrange_derivative(space().reference().nodes_1d);
-  const DuctPoint centre(0, space().mesh().geometry().shape().offset, 0);
+  const Eigen::MatrixX3d X = places_in_ball(e);
   const auto& nodes = space().nodes().of_element[e];
-  Eigen::MatrixX3d X(all, 3), x(all, 3), velocity(all, 3);
-  for (int i = 0; i < all; ++i) {
-    X.row(i) = (space().node_points()[nodes[i]] - centre).transpose();
-    x.row(i) = duct_point(space(), motion_.turning, nodes[i]).transpose();
-  }
+  Eigen::MatrixX3d x(all, 3), velocity(all, 3);
+  for (int i = 0; i < all; ++i) x.row(i) = duct_point(space(), motion_.turning, nodes[i]).transpose();
   for (int i = 0; i < all; ++i) {
     Eigen::Matrix3d rest = Eigen::Matrix3d::Zero(), now = Eigen::Matrix3d::Zero();  // by the element's coordinates
     for (int k = 0, stride = 1; k < 3; ++k, stride *= n) {
@@ -145,19 +150,13 @@ MatrixXd MovingDuctSystem::branch_at_nodes(const VectorXd& metric) const {
 
 void MovingDuctSystem::turn_branch(const VectorXd& metric) {
   const Tensor<double> spin_1{0, -1, 0, 1, 0, 0, 0, 0, 0};
-  const DuctPoint centre(0, space().mesh().geometry().shape().offset, 0);
   const MatrixXd at_nodes = branch_at_nodes(metric);
   Eigen::Index i = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     HexahedronUnknowns& self = elements_[e];
     if (self.liquid) continue;
-    const auto& nodes = space().nodes().of_element[e];
-    MatrixXd nodal(nodes.size(), 6), places(nodes.size(), 3);
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      nodal.row(Eigen::Index(k)) = at_nodes.row(nodes[k]);
-      places.row(Eigen::Index(k)) = (space().node_points()[std::size_t(nodes[k])] - centre).transpose();
-    }
-    const MatrixXd X = element().at_points(0, places);
+    const MatrixXd nodal = at_nodes(space().nodes().of_element[e], Eigen::all);
+    const MatrixXd X = element().at_points(0, places_in_ball(int(e)));
     const std::array slopes{element().at_points(1, nodal), element().at_points(2, nodal),
                             element().at_points(3, nodal)};
     for (std::size_t q = 0; q < self.history.size(); ++q, i += 6) {
@@ -177,12 +176,12 @@ VectorXd MovingDuctSystem::branch_metric(const Bulk& bulk, const VectorXd& unkno
   for (int e = 0; e < int(elements_.size()); ++e) {
     const HexahedronUnknowns& self = elements_[e];
     if (self.liquid) continue;
+    const double spin = self.spin < 0 ? 0 : unknowns(self.spin);
     const MatrixXd numbers = numbers_at_points<MapFields<double, 3>>(space(), element(), e, unknowns);
     for (int q = 0; q < numbers.rows(); ++q) {
       const PointMap<double, 3> map(fields_at<MapFields<double, 3>>(numbers, q));
       const Tensor<double> F = deformation_gradient(map, self.undeformed[q]);
       const Tensor<double> inverse_C = inverse(Tensor<double>(F.transpose() * F));
-      const double spin = self.spin < 0 ? 0 : unknowns(self.spin);
       const Tensor<double> history = self.history[q].at_spin(spin).branch;
       metric.segment<6>(i) = components(rheocyte::branch_metric(bulk, inverse_C, motion_.rate, history));
       i += 6;

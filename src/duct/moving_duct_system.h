@@ -23,6 +23,8 @@ class MovingDuctSystem final : public DuctSystem {
  private:
   const HexahedronUnknowns& unknowns_of(int element) const override { return elements_[element]; }
   void move_surface(int element);
+  /// Of the nodes of an element of the undeformed ball, from its centre.
+  Eigen::MatrixX3d places_in_ball(int element) const;
   void set_history(int element);
   /// Velocity with which the material passes through the nodes of an element of the cell at the spin 1
   /// (eq:turning-in-time), in the shape to which the motion extrapolates.

@@ -42,7 +42,7 @@ ModuliMisfit::ModuliMisfit(const CombinedInterpolation& table, MeasuredShape sha
 void ModuliMisfit::set_free(std::vector<int> free, const CellCoordinates& cell) {
   free_ = std::move(free);
   cell_ = cell;
-  last_ = {cell, table_.at(cell)};
+  if (table_.is_elongated()) last_ = {cell, table_.at(cell)};
   if (follows_tension_) std::erase(free_, x_axial);
 }
 

@@ -77,7 +77,7 @@ class ModuliMisfit {
     CellCoordinates cell;
     CombinedState state;
   };
-  mutable Last last_;  ///< where the next search begins
+  mutable Last last_;  ///< where the next search begins, in tables of elongated cells
 };
 
 }  // namespace rheocyte

@@ -57,6 +57,14 @@ class PopulationCommand : public ::testing::Test {
   nlohmann::json record(const fs::path& folder = "population") const {
     return nlohmann::json::parse(content_of(folder_.path() / folder / "population.json"));
   }
+  /// What is written of the recordings of one condition.
+  nlohmann::json fitted_recordings(const std::string& condition, const std::string& folder,
+                                   const std::vector<std::string>& options) const {
+    std::vector<std::string> words{"population", "--condition", condition, "-o", folder, "--quiet", "--no-picture"};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(call(words).exit_code, 0);
+    return record(folder)["recordings"];
+  }
 
   TemporaryFolder folder_;
 };

@@ -88,11 +88,7 @@ TEST_F(PopulationCommand, RecordingsOfAConditionMayShareTheirSpread) {
   synth("a.rtdc", {"recording.cells=80"});
   synth("b.rtdc", {"recording.cells=80", "recording.seed=5"});
   const auto spreads = [&](const std::string& folder, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"population", "--condition", "x=a.rtdc,b.rtdc", "-o",
-                                   folder,       "--quiet",     "--no-picture"};
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(call(words).exit_code, 0);
-    const auto recordings = record(folder)["recordings"];
+    const auto recordings = fitted_recordings("x=a.rtdc,b.rtdc", folder, more);
     return std::pair<double, double>{recordings[0]["population"]["spread_of_ln_modulus"],
                                      recordings[1]["population"]["spread_of_ln_modulus"]};
   };
@@ -108,11 +104,7 @@ TEST_F(PopulationCommand, RecordingsOfAConditionMayShareTheirSpread) {
 TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
   synth("a.rtdc", {"recording.cells=500", "noise.contour_um=0.1"});
   const auto of = [&](const std::string& folder, const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"population", "--condition", "a=a.rtdc",    "-o",
-                                       folder,       "--quiet",     "--no-picture"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    EXPECT_EQ(call(arguments).exit_code, 0);
-    return record(folder)["recordings"][0];
+    return fitted_recordings("a=a.rtdc", folder, options)[0];
   };
   const auto known = of("known", {"--outline-noise-um", "0.1"}), unknown = of("unknown", {});
   EXPECT_EQ(record("known")["outline_noise_um"], 0.1);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 
 #include "infer/combined_moments.h"
 #include "measurement/outline_noise.h"
@@ -137,18 +138,25 @@ TEST_F(CombinedPopulationTest, MeansOfDifferentCellsAreBentAwayFromTheMeanCell) 
   EXPECT_GT(std::abs(bend(1)), 1e-3) << "c2 goes with T/S, whose mean is not that of S";
 }
 
+/// Three standard errors.
+void expect_within_errors(const CombinedPopulation& found, const CombinedLaw& law,
+                          std::initializer_list<CombinedParameter> parameters) {
+  const CombinedVector truth = law.parameters();
+  for (const auto p : parameters) {
+    const int a = int(p);
+    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
+  }
+}
+
 TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLaw law = usual_law();
   const auto cells = pictures(law, 600, 3);
   const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
   ASSERT_TRUE(found.fit.is_found);
-  const CombinedVector truth = law.parameters();
-  for (const auto p :
-       {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_fraction,
-        CombinedParameter::tension_ratio, CombinedParameter::axial_tension}) {
-    const int a = int(p);
-    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
-  }
+  expect_within_errors(
+      found, law,
+      {CombinedParameter::log_radius, CombinedParameter::log_stiffness, CombinedParameter::cortex_fraction,
+       CombinedParameter::tension_ratio, CombinedParameter::axial_tension});
   EXPECT_LT(
       std::sqrt(found.fit.covariance(int(CombinedParameter::log_stiffness), int(CombinedParameter::log_stiffness))),
       0.08);
@@ -165,12 +173,9 @@ TEST_F(CombinedPopulationTest, ErrorsOfTheOutlineArePartOfThePictures) {
       fit_combined_population(moduli_, {.sight = sight_, .pixel_size_um = pixel_um, .outline_noise = noise},
                               pictures(law, 600, 3, noise), [] {});
   ASSERT_TRUE(found.fit.is_found);
-  const CombinedVector truth = law.parameters();
-  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
-                       CombinedParameter::cortex_fraction, CombinedParameter::axial_tension}) {
-    const int a = int(p);
-    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
-  }
+  expect_within_errors(found, law,
+                       {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
+                        CombinedParameter::cortex_fraction, CombinedParameter::axial_tension});
   EXPECT_LT(found.fit.misfit, 14) << "two degrees of freedom, 1 of 1000";
 }
 
@@ -183,14 +188,12 @@ TEST_F(CombinedPopulationTest, AGateOnTheAreaIsPartOfTheModel) {
   std::erase_if(cells, [&](const MeasuredCell& cell) { return !gate.pass(log_area(cell)); });
   const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um, gate}, cells, [] {});
   ASSERT_TRUE(found.fit.is_found);
-  const CombinedVector truth = law.parameters();
-  for (const auto p : {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
-                       CombinedParameter::axial_tension, CombinedParameter::log_radius_spread}) {
-    const int a = int(p);
-    EXPECT_NEAR(found.fit.parameters(a), truth(a), 3 * std::sqrt(found.fit.covariance(a, a))) << a;
-  }
+  expect_within_errors(found, law,
+                       {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
+                        CombinedParameter::axial_tension, CombinedParameter::log_radius_spread});
   EXPECT_NEAR(found.kept_fraction, 0.5, 0.1);
-  EXPECT_GT(median_of(cells).shape(int(ShapeFeature::area_um2)) - 2 * truth(0), std::log(3.3)) << "the gate cuts";
+  EXPECT_GT(median_of(cells).shape(int(ShapeFeature::area_um2)) - 2 * law.parameters()(0), std::log(3.3))
+      << "the gate cuts";
 }
 
 TEST(CombinedLaw, MeansOfLogarithmsAreThoseOfManyCells) {
