@@ -18,15 +18,11 @@ Claim opened(const fs::path& path, int how) {
   return Claim(::open(path.c_str(), how | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
 }
 
-// EWOULDBLOCK if another process has taken it for a left-over in the moment between its making and its claim.
-Claiming held(Claim made) {
-  if (!made) return {{}, errno};
+// EWOULDBLOCK if another process has taken what was just made for a left-over, and holds or has removed it.
+Claiming held(Claim made, const fs::path& path) {
+  const bool is_held_by_another = ::flock(made.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   struct stat found {};
-  if (::flock(made.descriptor(), LOCK_EX | LOCK_NB) == 0) {
-    if (::fstat(made.descriptor(), &found) != 0 || found.st_nlink == 0) return {{}, EWOULDBLOCK};
-  } else if (errno == EWOULDBLOCK) {
-    return {{}, EWOULDBLOCK};
-  }
+  if (is_held_by_another || ::lstat(path.c_str(), &found) != 0) return {{}, EWOULDBLOCK};
   return {std::move(made), 0};
 }
 
@@ -55,12 +51,15 @@ Claiming claim_on_mark(const fs::path& path, IfHeld if_held) {
 }
 
 Claiming make_claimed_file(const fs::path& path) {
-  return held(Claim(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)));
+  Claim made(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  return made ? held(std::move(made), path) : Claiming{{}, errno};
 }
 
 Claiming make_claimed_folder(const fs::path& path) {
   if (::mkdir(path.c_str(), 0700) != 0) return {{}, errno};
-  return held(Claim(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)));
+  Claim made(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  if (made) return held(std::move(made), path);
+  return {{}, errno == ENOENT ? EWOULDBLOCK : errno};  // removed before it could be opened
 }
 
 }  // namespace rheocyte

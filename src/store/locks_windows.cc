@@ -75,7 +75,9 @@ Claiming make_claimed_file(const fs::path& path) { return locked(opened_file(pat
 
 Claiming make_claimed_folder(const fs::path& path) {
   if (!::CreateDirectoryW(path.c_str(), nullptr)) return {{}, last_error()};
-  return opened_folder(path);
+  Claiming made = opened_folder(path);
+  if (made.failed == ENOENT) made.failed = EWOULDBLOCK;  // removed as a left-over before it could be opened
+  return made;
 }
 
 }  // namespace rheocyte
