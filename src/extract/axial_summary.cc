@@ -1,6 +1,7 @@
 #include "extract/axial_summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -10,19 +11,11 @@ namespace rheocyte {
 
 namespace {
 
-/// The prediction counts as met within so many standard errors and this much of the slope: fractions and tensions of
-/// the cells differ, too.
-constexpr double errors_allowed = 3, slope_allowed = 0.1;
-
 /// Its error is that of what it is computed from.
 std::string wall_text(double stress_Pa) {
   return fmt::format(
       "of the wall's shear stress of {:.4g} Pa (computed; errors of flow rate, channel and viscosity are not in it)",
       stress_Pa);
-}
-
-bool is_near(double value, double error, double predicted) {
-  return std::abs(value - predicted) < errors_allowed * error + slope_allowed;
 }
 
 }  // namespace
@@ -49,24 +42,28 @@ std::vector<std::string> tension_lines(const AxialSummary& s) {
 }
 
 std::vector<std::string> slope_lines(const AxialSummary& s) {
-  if (!s.is_of_elongated_cells || std::isnan(s.measured.value[0])) return {};
-  std::string text = fmt::format("slopes between {} cells at equal area:", s.measured.cells);
-  bool is_met = true;
-  for (std::size_t k = 0; k < slope_count; ++k) {
-    const double value = s.measured.value[k], error = s.measured.error[k], stiffness = s.predicted.by_stiffness[k];
-    text += fmt::format(
-        "{} dc{}/dc2 = {:.3f} +- {:.3f} (cells that differ in stiffness alone: {:.2f}, in axial "
-        "tension alone: {:.2f})",
-        k == 0 ? "" : ",", k + 3, value, error, stiffness, s.predicted.by_tension[k]);
-    is_met = is_met && is_near(value, error, stiffness);
-  }
-  text += is_met ? "; the cells differ as those of the model with one axial tension do"
-                 : "; the cells differ otherwise than those of the model with one axial tension";
+  if (!s.is_of_elongated_cells || !s.measured.are_enough()) return {};
+  std::string text = fmt::format("slopes between {} cells at equal area ", s.measured.cells);
+  if (std::isnan(s.measured.value[0]))
+    return {text + "are not known: the second modes of the cells differ less than the pixels make them scatter"};
+  const auto& [value, error, cells] = s.measured;
+  const PredictedSlopes& predicted = s.predicted;
+  text += fmt::format(
+      "dc3/dc2, dc4/dc2, dc5/dc2: {:.3f} +- {:.3f}, {:.3f} +- {:.3f}, {:.3f} +- {:.3f}; of cells that differ in "
+      "E + E2D/r0 alone {:.2f}, in the part of the cortex in it {:.2f}, in its tension {:.2f}, in the axial tension "
+      "{:.2f}",
+      value[0], error[0], value[1], error[1], value[2], error[2], fmt::join(predicted.by_stiffness, ", "),
+      fmt::join(predicted.by_fraction, ", "), fmt::join(predicted.by_ratio, ", "),
+      fmt::join(predicted.by_axial_tension, ", "));
+  text += are_of_one_tension(s.measured, predicted)
+              ? "; the cells differ as those of the model with one axial tension do"
+              : "; the cells differ otherwise than those of the model with one axial tension";
   return {text};
 }
 
-void SlopeTally::take(const ShapeVector& seen, const CellCoordinates& cell) {
-  modes_.push_back(cell_modes(seen));
+void SlopeTally::take(const ShapeVector& seen, const ShapeErrors& errors, const CellCoordinates& cell) {
+  modes_.push_back(cell_modes(seen - errors.bias));
+  noise_ += mode_noise(errors);
   cells_.push_back(cell);
 }
 
@@ -78,7 +75,7 @@ void SlopeTally::finish(const CombinedInterpolation& table, AxialSummary& summar
     for (const auto& cell : cells_) along.push_back(cell(x));
     median(x) = quantile(along, 0.5);
   }
-  summary.measured = slopes_between(modes_);
+  summary.measured = slopes_between(modes_, noise_ / double(cells_.size()));
   summary.predicted = predicted_slopes(table, median);
 }
 

@@ -26,12 +26,14 @@ std::vector<std::string> slope_lines(const AxialSummary& summary);
 /// Takes the events that have a cell of the table.
 class SlopeTally {
  public:
-  void take(const ShapeVector& seen, const CellCoordinates& cell);
+  /// `errors`: of one picture of this cell.
+  void take(const ShapeVector& seen, const ShapeErrors& errors, const CellCoordinates& cell);
   /// Measured, and predicted at the median cell.
   void finish(const CombinedInterpolation& table, AxialSummary& summary) const;
 
  private:
-  std::vector<CellModes> modes_;
+  std::vector<CellModes> modes_;         ///< less what pictures add on the mean
+  ModeNoise noise_ = ModeNoise::Zero();  ///< sum of all
   std::vector<CellCoordinates> cells_;
 };
 

@@ -43,6 +43,8 @@ class EventModuli {
   /// From the shape in pixels (EventOutlines) and the viscosity of the event, with what is known of the axial tension:
   /// nothing, unless it is given or `know_tension` was called.
   ModuliEstimate fit(const ShapeVector& seen, double viscosity_mPas) const;
+  /// What one picture adds to the features of a cell of the table.
+  ShapeErrors errors_in_picture(const CellCoordinates& cell) const { return pixels_.at(cell); }
   void know_tension(const AxialTension& tension) { tension_ = tension; }
 
   /// Of some cells, in pixels. `goes_on` is called from group to group.

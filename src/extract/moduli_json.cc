@@ -48,7 +48,9 @@ ordered_json slopes_of(const AxialSummary& s) {
                       {"value", s.measured.value[k]},
                       {"error", s.measured.error[k]},
                       {"by_stiffness", s.predicted.by_stiffness[k]},
-                      {"by_axial_tension", s.predicted.by_tension[k]}});
+                      {"by_cortex_fraction", s.predicted.by_fraction[k]},
+                      {"by_tension_ratio", s.predicted.by_ratio[k]},
+                      {"by_axial_tension", s.predicted.by_axial_tension[k]}});
   return slopes;
 }
 

@@ -121,7 +121,10 @@ class Fits {
     fits.run(threads_);
     for (std::size_t i = 0; i < count; ++i) {
       tally_.take(estimates_[i]);
-      if (axial_.is_of_elongated_cells && has_cell(estimates_[i])) slopes_.take(seen_[i], estimates_[i].cell);
+      if (axial_.is_of_elongated_cells && has_cell(estimates_[i])) {
+        const CellCoordinates& cell = estimates_[i].cell;
+        slopes_.take(seen_[i], moduli_.errors_in_picture(cell), cell);
+      }
     }
     return {seen_, viscosity, estimates_, excess_, solids_values_.block()};
   }

@@ -8,69 +8,99 @@ namespace rheocyte {
 namespace {
 
 constexpr int mode_2_row = first_mode_row;
-constexpr double far_off = 4;  // standard deviations
-constexpr std::size_t min_cells_for_slopes = 20;
+constexpr Eigen::Index log_area = 0, mode_2 = 1;  // of CellModes
+constexpr double far_off = 4;                     // standard deviations
+constexpr int rounds = 4;
+constexpr double error_of_noise = 0.1;
+/// Of the scatter of the second mode that must be the cells' own.
+constexpr double least_part = 0.5;
+constexpr double errors_allowed = 3, slope_allowed = 0.1;
 
 /// One mode over the second one; its slope and the standard error.
 struct Regression {
-  double slope, error;
+  double slope = no_value, error = no_value;
 };
 
-Regression regression(const std::vector<CellModes>& cells, std::size_t mode) {
-  const auto n = Eigen::Index(cells.size());
-  Eigen::MatrixX3d design(n, 3);
-  Eigen::VectorXd value(n), weight = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const CellModes& cell = cells[std::size_t(i)];
-    design.row(i) << 1, cell.modes[0], cell.log_area;
-    value(i) = cell.modes[mode];
+/// Lines of a mode over the second one and ln(area) of cells with errors in all of them.
+class NoisyLine {
+ public:
+  NoisyLine(const std::vector<CellModes>& cells, const ModeNoise& noise, Eigen::Index mode)
+      : design_(Eigen::Index(cells.size()), 3), value_(design_.rows()) {
+    for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+      const CellModes& cell = cells[std::size_t(i)];
+      design_.row(i) << 1, cell(mode_2), cell(log_area);
+      value_(i) = cell(mode);
+    }
+    const std::array<Eigen::Index, 2> known{mode_2, log_area};
+    noise_of_known_.bottomRightCorner<2, 2>() = noise(known, known);
+    noise_of_both_.tail<2>() = noise(known, mode);
   }
-  Regression found{no_value, no_value};
-  constexpr int rounds = 4;
-  for (int round = 0; round < rounds; ++round) {
-    const Eigen::Matrix3d inverse = (design.transpose() * weight.asDiagonal() * design).inverse();
-    const Eigen::Vector3d best = inverse * (design.transpose() * weight.asDiagonal() * value);
-    const Eigen::VectorXd off = value - design * best;
-    const double variance = weight.dot(off.cwiseAbs2()) / (weight.sum() - 3);
-    found = {best(1), std::sqrt(variance * inverse(1, 1))};
-    weight = (off.array().abs() < far_off * std::sqrt(variance)).cast<double>();
-  }
-  return found;
-}
 
-/// d(c_3, c_4, c_5)/d(c_2) along a direction in which the area and one more quantity stay.
-ModeSlopes slopes_along(const CombinedState& state, const CellCoordinates& held) {
-  constexpr std::array<int, 3> moved{x_radius, x_progress, x_axial};
-  Eigen::Vector3d area, other;
-  for (int i = 0; i < 3; ++i) {
-    area(i) = state.gradient(log_area_row, moved[std::size_t(i)]);
-    other(i) = held(moved[std::size_t(i)]);
+  /// What a tenth of the noise is worth counts as an error of the slope.
+  Regression found() const {
+    const Regression corrected = without(1), plain = without(0);
+    return {corrected.slope, std::hypot(corrected.error, error_of_noise * (corrected.slope - plain.slope))};
   }
-  const Eigen::Vector3d direction = area.cross(other);
-  const auto along = [&](int row) {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += state.gradient(row, moved[std::size_t(i)]) * direction(i);
-    return sum;
-  };
+
+ private:
+  /// Less so much of the noise.
+  Regression without(double part) const {
+    const Eigen::Matrix3d known = part * noise_of_known_;
+    const Eigen::Vector3d both = part * noise_of_both_;
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(value_.size());
+    Regression found;
+    for (int round = 0; round < rounds; ++round) {
+      const double cells = weight.sum();
+      const Eigen::Matrix3d seen = design_.transpose() * weight.asDiagonal() * design_;
+      const Eigen::Matrix3d sums = seen - cells * known;
+      if (!(1 / sums.inverse()(1, 1) > least_part * (1 / seen.inverse()(1, 1)))) return {};
+      const Eigen::Vector3d best = sums.inverse() * (design_.transpose() * weight.asDiagonal() * value_ - cells * both);
+      const Eigen::VectorXd off = value_ - design_ * best;
+      const Eigen::MatrixX3d scores =
+          (design_.array().colwise() * off.array()).matrix().rowwise() - (both - known * best).transpose();
+      const Eigen::Matrix3d scatter = scores.transpose() * weight.asDiagonal() * scores * (cells / (cells - 3));
+      found = {best(1), std::sqrt((sums.inverse() * scatter * sums.inverse())(1, 1))};
+      const double deviation = std::sqrt(weight.dot(off.cwiseAbs2()) / (cells - 3));
+      weight = (off.array().abs() < far_off * deviation).cast<double>();
+    }
+    return found;
+  }
+
+  Eigen::MatrixX3d design_;
+  Eigen::VectorXd value_;
+  Eigen::Matrix3d noise_of_known_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d noise_of_both_ = Eigen::Vector3d::Zero();
+};
+
+/// The features of CellModes.
+constexpr std::array<int, 2 + slope_count> told{int(ShapeFeature::area_um2), feature_of_mode(2), feature_of_mode(3),
+                                                feature_of_mode(4), feature_of_mode(5)};
+
+/// d(c_3, c_4, c_5)/d(c_2) along the direction in which none of these changes.
+ModeSlopes slopes_along(const CombinedState& state, std::initializer_list<CellCoordinates> held) {
+  Eigen::Matrix<double, coordinate_count - 1, coordinate_count> rows;
+  Eigen::Index row = 0;
+  for (const CellCoordinates& gradient : held) rows.row(row++) = gradient.transpose();
+  const CellCoordinates direction = rows.fullPivLu().kernel().col(0);
   ModeSlopes slopes{};
-  for (int k = 0; k < slope_count; ++k) slopes[std::size_t(k)] = along(mode_2_row + 1 + k) / along(mode_2_row);
+  for (int k = 0; k < slope_count; ++k)
+    slopes[std::size_t(k)] =
+        state.gradient.row(mode_2_row + 1 + k).dot(direction) / state.gradient.row(mode_2_row).dot(direction);
   return slopes;
 }
 
 }  // namespace
 
-CellModes cell_modes(const ShapeVector& shape) {
-  CellModes cell{shape(int(ShapeFeature::area_um2)), {}};
-  for (int k = 0; k <= slope_count; ++k) cell.modes[std::size_t(k)] = shape(int(ShapeFeature::first_mode) + k);
-  return cell;
-}
+CellModes cell_modes(const ShapeVector& shape) { return shape(told); }
 
-SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells) {
+ModeNoise mode_noise(const ShapeErrors& errors) { return errors.covariance(told, told); }
+
+SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells, const ModeNoise& noise) {
   SlopesBetweenCells slopes;
   slopes.cells = cells.size();
-  if (cells.size() < min_cells_for_slopes) return slopes;
+  if (!slopes.are_enough()) return slopes;
   for (std::size_t k = 0; k < slope_count; ++k) {
-    const Regression found = regression(cells, k + 1);
+    const Regression found = NoisyLine(cells, noise, mode_2 + 1 + Eigen::Index(k)).found();
     slopes.value[k] = found.slope;
     slopes.error[k] = found.error;
   }
@@ -79,10 +109,31 @@ SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells) {
 
 PredictedSlopes predicted_slopes(const CombinedInterpolation& table, const CellCoordinates& cell) {
   const CombinedState state = table.at(cell);
-  const CellCoordinates stiffness = state.gradient.row(log_stiffness_row).transpose();
+  const CellCoordinates area = state.gradient.row(log_area_row), stiffness = state.gradient.row(log_stiffness_row);
+  const CellCoordinates fraction = CellCoordinates::Unit(x_fraction), ratio = CellCoordinates::Unit(x_ratio);
   // T = axial ratio times stiffness.
   const CellCoordinates tension = CellCoordinates::Unit(x_axial) + cell(x_axial) * stiffness;
-  return {slopes_along(state, tension), slopes_along(state, stiffness)};
+  return {.by_stiffness = slopes_along(state, {area, fraction, ratio, tension}),
+          .by_fraction = slopes_along(state, {area, stiffness, ratio, tension}),
+          .by_ratio = slopes_along(state, {area, stiffness, fraction, tension}),
+          .by_axial_tension = slopes_along(state, {area, stiffness, fraction, ratio})};
+}
+
+bool are_of_one_tension(const SlopesBetweenCells& measured, const PredictedSlopes& predicted) {
+  constexpr int parts = 50;  // fine enough for the 0.1
+  const auto is_met = [&](double stiffness, double fraction, double ratio) {
+    bool met = true;
+    for (std::size_t k = 0; k < slope_count; ++k) {
+      const double mean =
+          stiffness * predicted.by_stiffness[k] + fraction * predicted.by_fraction[k] + ratio * predicted.by_ratio[k];
+      met = met && std::abs(measured.value[k] - mean) < errors_allowed * measured.error[k] + slope_allowed;
+    }
+    return met;
+  };
+  for (int i = 0; i <= parts; ++i)
+    for (int j = 0; i + j <= parts; ++j)
+      if (is_met(double(parts - i - j) / parts, double(i) / parts, double(j) / parts)) return true;
+  return false;
 }
 
 }  // namespace rheocyte

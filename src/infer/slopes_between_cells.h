@@ -12,27 +12,35 @@ namespace rheocyte {
 inline constexpr int slope_count = 3;
 using ModeSlopes = std::array<double, slope_count>;
 
-/// ln(area) and the modes 2 .. 5 of a cell as it is seen.
-struct CellModes {
-  double log_area;
-  std::array<double, 1 + slope_count> modes;
-};
+/// ln(area) and the modes 2 .. 5 of a cell.
+using CellModes = Eigen::Matrix<double, 2 + slope_count, 1>;
+using ModeNoise = Eigen::Matrix<double, CellModes::RowsAtCompileTime, CellModes::RowsAtCompileTime>;
 CellModes cell_modes(const ShapeVector& shape);
+ModeNoise mode_noise(const ShapeErrors& errors);
 
 /// At equal area: each mode against the second one and ln(area), by least squares without cells that are off by more
-/// than four standard deviations; the pixels' own scatter, which flattens slopes, is in it: by a third where cells
-/// differ as little as those of examples/recordings/combined-cells.toml.
+/// than four standard deviations. The scatter of the pictures, which flattens slopes, is taken off the sums
+/// (eq:slopes-between-cells); a tenth of what that changes counts as an error. No values where the second modes of the
+/// cells scatter less than those of their pictures.
 struct SlopesBetweenCells {
   ModeSlopes value{no_value, no_value, no_value}, error{no_value, no_value, no_value};
   std::size_t cells = 0;
-};
-SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells);
 
-/// Those of cells that differ from this one in the stiffness alone, at equal area, fraction, ratio of the cortex'
-/// tension, and axial tension; or in the axial tension alone.
+  static constexpr std::size_t min_cells = 20;
+  bool are_enough() const { return cells >= min_cells; }
+};
+/// `noise`: covariance of what a picture adds, the mean of all cells.
+SlopesBetweenCells slopes_between(const std::vector<CellModes>& cells, const ModeNoise& noise = ModeNoise::Zero());
+
+/// Those of cells that differ from this one, at equal area, in one of these alone: E + E2D/r0, the part of the cortex
+/// in it, the tension of the cortex over its modulus, and the axial tension.
 struct PredictedSlopes {
-  ModeSlopes by_stiffness, by_tension;
+  ModeSlopes by_stiffness, by_fraction, by_ratio, by_axial_tension;
 };
 PredictedSlopes predicted_slopes(const CombinedInterpolation& table, const CellCoordinates& cell);
+
+/// Whether the slopes are those of cells with one axial tension that differ in the other three independently of each
+/// other: a mean of these, with any weights, each within three standard errors and 0.1, as lines are not straight.
+bool are_of_one_tension(const SlopesBetweenCells& measured, const PredictedSlopes& predicted);
 
 }  // namespace rheocyte
