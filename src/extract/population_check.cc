@@ -19,6 +19,13 @@ using EventValues = std::array<double, checked_measures>;
 
 constexpr std::array<const char*, checked_measures> checked_names{"ln A", "d", "inertia ratio", "c3", "c4", "c5"};
 
+/// Squares of many normal numbers: with this mean and deviation, and most below the mean (Wilson and Hilferty 1931).
+double sum_of_squares(double mean, double deviation, CellRandom& random) {
+  if (mean <= 0) return mean + deviation * random.normal();
+  const double part = deviation / mean / 3;
+  return mean * std::pow(1 - part * part + part * random.normal(), 3);
+}
+
 /// A cell of the fitted population, seen with the elongation and the viscosity of an event.
 class DrawnPopulation {
  public:
@@ -65,28 +72,39 @@ class DrawnPopulation {
     const SolidFeatures f = solids_.seen(cell);
     const double log_area_px = f.log_area - 2 * std::log(events_.pixel_size_um), mode_3 = f.modes.mode_3;
     const ModeErrors errors = mode_errors(log_area_px, f.modes);
-    const auto outline = solids_.outline_errors(cell).covariance;
-    const auto variance = [&](int feature) { return outline(feature, feature); };
-    const auto noise = [&](double of_pixels, double outline_variance) {
-      return std::sqrt(std::max(of_pixels * of_pixels + outline_variance, 0.0)) * random.normal();
+    const ShapeErrors outline = solids_.outline_errors(cell);
+    const auto variance = [&](double of_pixels, int feature) {
+      return std::max(of_pixels * of_pixels + outline.covariance(feature, feature), 0.0);
+    };
+    const auto noise = [&](double of_pixels, int mode) {
+      return std::sqrt(variance(of_pixels, feature_of_mode(mode))) * random.normal();
     };
     values[checked_area] = seen.log_area;
     // The cell has the measured elongation with its noise, which the inertia ratio shares.
     values[checked_inertia] = f.inertia_ratio;
     if (maps_.by() == StiffnessMeasure::asymmetry) {
-      // d = 3/4 c_2^2 + 2 c_3^2 + what the pixels add to all modes, which is the noise of a round cell.
-      const double of_other_modes = mode_errors(log_area_px, {}).deformation_deviation;
+      // d = 3/4 c_2^2 + 2 c_3^2 + the squares of all that pixels and segmentation add to other modes, which is the
+      // noise of a round cell. The mean d of this cell has the squares of the noise of c_2, which the measured one has,
+      // too.
+      constexpr int feature = int(ShapeFeature::deformation);
+      const ModeErrors round = mode_errors(log_area_px, {});
       const Eigen::Vector2d slopes(1.5 * f.modes.mode_2, 4 * mode_3);
-      const double of_these = slopes.dot(outline.block<2, 2>(feature_of_mode(2), feature_of_mode(2)) * slopes);
+      const auto both = outline.covariance.block<2, 2>(feature_of_mode(2), feature_of_mode(2));
+      const double off_3 = seen.measure - mode_3,
+                   of_mode_2 = 0.75 * variance(errors.mode_2.deviation, feature_of_mode(2)),
+                   of_mode_3 = 2 * variance(errors.mode_3.deviation, feature_of_mode(3)),
+                   of_others = round.deformation_excess + outline.bias(feature) - of_mode_2 - of_mode_3,
+                   deviation = std::sqrt(
+                       std::max(variance(round.deformation_deviation, feature) - slopes.dot(both * slopes), 0.0));
       values[checked_mode_3] = seen.measure;
-      values[checked_deformation] = f.deformation + 4 * mode_3 * (seen.measure - mode_3) +
-                                    noise(of_other_modes, variance(int(ShapeFeature::deformation)) - of_these);
+      values[checked_deformation] = f.deformation - of_mode_2 + 4 * mode_3 * off_3 + 2 * off_3 * off_3 - of_mode_3 +
+                                    sum_of_squares(of_others, deviation, random) - of_others;
     } else {
       values[checked_mode_3] = mode_3 + errors.mode_3.deviation * random.normal();
       values[checked_deformation] = seen.measure;
     }
-    values[checked_mode_4] = f.modes.mode_4 + noise(errors.mode_4.deviation, variance(feature_of_mode(4)));
-    values[checked_mode_5] = f.modes.mode_5 + noise(errors.mode_5.deviation, variance(feature_of_mode(5)));
+    values[checked_mode_4] = f.modes.mode_4 + noise(errors.mode_4.deviation, 4);
+    values[checked_mode_5] = f.modes.mode_5 + noise(errors.mode_5.deviation, 5);
   }
 
   const PopulationEvents& events_;

@@ -255,9 +255,18 @@ PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
 PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
   Channel& channel = channels_[key_of(events)];
   if (!channel.solids)
-    channel.solids = std::make_unique<const SolidMaps>(
-        liquid(events), events.flow, SolidImages{events.pixel_size_um, {.deviation = outline_noise_um_}}, by_);
+    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow,
+                                                       SolidImages{events.pixel_size_um, outline_errors(events)}, by_);
   return channel;
+}
+
+std::shared_ptr<const OutlineErrors> PopulationMaps::outline_errors(const PopulationEvents& events) {
+  if (outline_noise_um_ == 0) return nullptr;
+  auto& errors = outline_errors_[{table(events), events.flow.width_um, events.pixel_size_um}];
+  if (!errors)
+    errors = std::make_shared<const OutlineErrors>(liquid(events).solids().table(), events.flow.width_um,
+                                                   events.pixel_size_um, OutlineNoise{.deviation = outline_noise_um_});
+  return errors;
 }
 
 const SolidMaps& PopulationMaps::solids(const PopulationEvents& events) { return *channel(events).solids; }

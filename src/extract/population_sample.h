@@ -2,6 +2,8 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <string>
+#include <tuple>
 
 #include "extract/modulus_tables.h"
 #include "extract/population_events.h"
@@ -35,6 +37,8 @@ class PopulationMaps {
   static Key key_of(const PopulationEvents& events);
   Channel& channel(const PopulationEvents& events);
   const ElongatedLiquid& liquid(const PopulationEvents& events) const;
+  /// Null without noise.
+  std::shared_ptr<const OutlineErrors> outline_errors(const PopulationEvents& events);
 
   StiffnessMeasure by_;
   double outline_noise_um_;
@@ -42,6 +46,8 @@ class PopulationMaps {
   std::unique_ptr<const ElongatedSolids> given_;
   std::unique_ptr<const ElongatedLiquid> given_liquid_;
   std::map<Key, Channel> channels_;
+  std::map<std::tuple<std::string, double, double>, std::shared_ptr<const OutlineErrors>>
+      outline_errors_;  ///< by the table, the width of the channel and the size of the pixels, whatever the flow
 };
 
 struct SampleOptions {

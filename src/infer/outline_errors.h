@@ -10,20 +10,28 @@ namespace rheocyte {
 /// Fitted to pictures of cells of the table with and without the displacement, at the same places. Repeatable.
 class OutlineErrors {
  public:
-  /// `length`: of the recording's channel over the table's; all other lengths in um. Without noise nothing is rendered.
-  OutlineErrors(const ElongatedTable& table, double length, double pixel_size_um, const OutlineNoise& noise);
+  /// Of cells in a channel of this width; lengths in um. Without noise nothing is rendered.
+  OutlineErrors(const ElongatedTable& table, double width_um, double pixel_size_um, const OutlineNoise& noise);
 
   /// Bias and covariance that come on top of those of the pixels, for a smooth outline of this ln(area / um2) and these
   /// modes.
   ShapeErrors at(double log_area, double mode_2, double mode_3) const;
 
  private:
-  static constexpr int terms = 10, numbers = feature_count * (1 + feature_count);
+  /// Of all polynomials of the third degree; those of the second stand first.
+  static constexpr int degree = 3, terms = 20, terms_of_second_degree = 10, covariances = feature_count * feature_count;
   using Terms = Eigen::Matrix<double, 1, terms>;
   Terms terms_at(double log_area, double mode_2, double mode_3) const;
+  /// By which polynomials are multiplied: variances are as the part of the outline that is off alike.
+  struct Scales {
+    double bias, covariance;
+  };
+  Scales scales_at(double log_area) const;
 
   OutlineNoise noise_;
-  Eigen::Matrix<double, terms, numbers> law_ = Eigen::Matrix<double, terms, numbers>::Zero();
+  Eigen::Matrix<double, terms, feature_count> bias_ = Eigen::Matrix<double, terms, feature_count>::Zero();
+  Eigen::Matrix<double, terms_of_second_degree, covariances> covariance_ =
+      Eigen::Matrix<double, terms_of_second_degree, covariances>::Zero();
 };
 
 }  // namespace rheocyte

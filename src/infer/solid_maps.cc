@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include "infer/outline_errors.h"
 #include "infer/plane_map.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/local_cubic.h"
@@ -120,8 +119,8 @@ class SolidMaps::Sheets {
         pixel_size_um_(images.pixel_size_um),
         by_(by),
         length_(factors_of(flow).length),
-        outline_errors_(table_, length_, images.pixel_size_um, images.outline) {
-    assert(by == StiffnessMeasure::asymmetry || images.outline.deviation == 0);
+        outline_errors_(images.outline) {
+    assert(by == StiffnessMeasure::asymmetry || !images.outline);
     log_modulus_factor_ = std::log(factors_of(flow).modulus);
     first_u_ = std::log(table_.radius_um(0) * length_);
     step_u_ = (std::log(table_.radius_um(1) * length_) - first_u_) / (radius_nodes - 1);
@@ -161,8 +160,9 @@ class SolidMaps::Sheets {
   }
 
   ShapeErrors outline_errors(const ElongatedState& state) const {
+    if (!outline_errors_) return {};
     const SolidFeatures smooth = features_of(state, length_);
-    return outline_errors_.at(smooth.log_area, smooth.modes.mode_2, smooth.modes.mode_3);
+    return outline_errors_->at(smooth.log_area, smooth.modes.mode_2, smooth.modes.mode_3);
   }
 
   SolidFeatures seen(const ElongatedState& state, const ShapeVector& outline_bias) const {
@@ -333,7 +333,7 @@ class SolidMaps::Sheets {
   double pixel_size_um_;
   StiffnessMeasure by_;
   double length_;
-  OutlineErrors outline_errors_;
+  std::shared_ptr<const OutlineErrors> outline_errors_;
   double log_modulus_factor_, first_u_, step_u_, first_axial_, step_axial_;
   std::vector<NodeNumbers> nodes_;
 };

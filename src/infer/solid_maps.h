@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "infer/elongated_liquid.h"
-#include "measurement/outline_noise.h"
+#include "infer/outline_errors.h"
 #include "measurement/pixel_errors.h"
 #include "population/forward_map.h"
 
@@ -28,7 +28,7 @@ SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, d
 /// By which cells are seen.
 struct SolidImages {
   double pixel_size_um;
-  OutlineNoise outline = {};  ///< um; none but for StiffnessMeasure::asymmetry
+  std::shared_ptr<const OutlineErrors> outline = nullptr;  ///< null: none; for StiffnessMeasure::asymmetry alone
 };
 
 class SolidMaps {

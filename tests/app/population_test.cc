@@ -101,6 +101,13 @@ TEST_F(PopulationCommand, RecordingsOfAConditionMayShareTheirSpread) {
                   "--shared-spread is for solids");
 }
 
+/// So many that they would show a tenth of what the errors of the outline add to d.
+TEST_F(PopulationCommand, ErrorsOfTheOutlineAreInTheChecks) {
+  synth("a.rtdc", {"recording.cells=2000", "noise.contour_um=0.1", "cell.bulk.young_modulus_kPa.mean=2.5"});
+  for (const auto& check : fitted_recordings("a=a.rtdc", "a", {"--outline-noise-um", "0.1"})[0]["checks"])
+    EXPECT_TRUE(check["fits"]) << check.dump();
+}
+
 TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
   synth("a.rtdc", {"recording.cells=500", "noise.contour_um=0.1"});
   const auto of = [&](const std::string& folder, const std::vector<std::string>& options) {

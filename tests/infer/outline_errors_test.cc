@@ -75,7 +75,7 @@ class OutlineErrorsTest : public testing::Test {
 };
 
 TEST_F(OutlineErrorsTest, OfNoNoiseAreNone) {
-  const ShapeErrors none = OutlineErrors(table_, 1, 0.34, {}).at(std::log(110), 0.1, 0.05);
+  const ShapeErrors none = OutlineErrors(table_, 20, 0.34, {}).at(std::log(110), 0.1, 0.05);
   EXPECT_EQ(none.bias, ShapeVector::Zero());
   EXPECT_EQ(none.covariance.cwiseAbs().maxCoeff(), 0);
 }
@@ -84,7 +84,7 @@ TEST_F(OutlineErrorsTest, OfNoNoiseAreNone) {
 TEST_F(OutlineErrorsTest, AreThoseOfPicturesWithOtherRandomNumbers) {
   constexpr double pixel_um = 0.34, deviation_um = 0.1;
   constexpr int pictures = 2000;
-  const OutlineErrors errors(table_, 1, pixel_um, {deviation_um, correlation_um});
+  const OutlineErrors errors(table_, 20, pixel_um, {deviation_um, correlation_um});
   for (const InventedElongated& cell :
        {InventedElongated{6, 0.02, 2}, InventedElongated{6.5, 0.2, 3}, InventedElongated{5, 0.1, 8}}) {
     const ShapeErrors with = simulated(cell, pixel_um, deviation_um, pictures),
@@ -107,7 +107,7 @@ TEST_F(OutlineErrorsTest, AreThoseOfPicturesWithOtherRandomNumbers) {
 /// eq:outline-noise, for displacements that leave hulls as they are, and pixels that are smaller.
 TEST_F(OutlineErrorsTest, AreThoseOfTheModesWherePixelsAreSmall) {
   constexpr double deviation_um = 0.03, radius_um = 6;
-  const OutlineErrors errors(table_, 1, 0.1, {deviation_um, correlation_um});
+  const OutlineErrors errors(table_, 20, 0.1, {deviation_um, correlation_um});
   const ShapeErrors added = errors.at(std::log(pi * radius_um * radius_um), 0, 0);
   const double relative = deviation_um / radius_um;
   const double white = 2 * correlation_um / (std::sqrt(pi) * radius_um) * relative * relative;

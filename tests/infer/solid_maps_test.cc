@@ -111,8 +111,12 @@ TEST_F(Maps, TheCellBehindAMeasuredElongationHasIt) {
 
 TEST_F(Maps, ErrorsOfTheOutlineAreInTheMeansAndInTheNoise) {
   const auto by = StiffnessMeasure::asymmetry;
-  const SolidMaps without(liquid_, {20, 0.04, 1}, {pixel_um}, by), none(liquid_, {20, 0.04, 1}, {pixel_um, {0}}, by),
-      with(liquid_, {20, 0.04, 1}, {pixel_um, {0.1}}, by);
+  const auto of_noise = [&](double deviation_um) {
+    return std::make_shared<const OutlineErrors>(solids_.table(), 20, pixel_um, OutlineNoise{deviation_um});
+  };
+  const auto errors = of_noise(0.1);
+  const SolidMaps without(liquid_, {20, 0.04, 1}, {pixel_um}, by),
+      none(liquid_, {20, 0.04, 1}, {pixel_um, of_noise(0)}, by), with(liquid_, {20, 0.04, 1}, {pixel_um, errors}, by);
   const InventedElongated cell{6.3, 0.15, 3};
   const double u = std::log(cell.radius_um);
   const auto of = [&](const SolidMaps& maps, double elongation) {
@@ -123,8 +127,7 @@ TEST_F(Maps, ErrorsOfTheOutlineAreInTheMeansAndInTheNoise) {
   const MapPoint p = of(without, seen.modes.mode_2);
   EXPECT_EQ(of(none, seen.modes.mode_2).measure, p.measure);
   EXPECT_EQ(of(none, seen.modes.mode_2).measure_variance, p.measure_variance);
-  const ShapeErrors added =
-      OutlineErrors(solids_.table(), 1, pixel_um, {0.1}).at(std::log(cell.area_um2()), cell.mode_2(), cell.mode_3());
+  const ShapeErrors added = errors->at(std::log(cell.area_um2()), cell.mode_2(), cell.mode_3());
   const MapPoint off = of(with, seen.modes.mode_2 + added.bias(feature_of_mode(2)));
   EXPECT_NEAR(off.measure, seen.modes.mode_3 + added.bias(feature_of_mode(3)), 1e-4);
   EXPECT_NEAR(off.log_area, seen.log_area + added.bias(int(ShapeFeature::area_um2)), 3e-4);
