@@ -77,7 +77,8 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("moduli", "bulk and cortex moduli of the cells in recordings (.rtdc) from their contours");
   auto options = std::make_shared<ModuliOptions>();
   declare_batch_options(*command, options->batch);
-  declare_jobs(*command, options->batch);
+  declare_jobs(*command, options->batch,
+               "recordings that are read at once; threads that share one recording where there are fewer");
   command
       ->add_option(
           "--table", options->table,

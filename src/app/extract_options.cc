@@ -43,12 +43,10 @@ void declare_batch_options(CLI::App& command, BatchOptions& options) {
   command.add_flag("--quiet", options.quiet, "print neither progress nor results");
 }
 
-void declare_jobs(CLI::App& command, BatchOptions& options) {
+void declare_jobs(CLI::App& command, BatchOptions& options, const std::string& meaning) {
   command
-      .add_option(
-          "-j,--jobs", options.jobs,
-          "recordings that are read at once, with fewer of them the threads that `moduli` shares each among; default: "
-          "as many as there are processors. Results do not depend on it")
+      .add_option("-j,--jobs", options.jobs,
+                  meaning + "; default: as many as there are processors. Results do not depend on it")
       ->check(CLI::Range(1, 1024));
 }
 

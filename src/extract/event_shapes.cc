@@ -64,8 +64,8 @@ HullAsymmetry EventShapes::asymmetry(const PixelContour& contour, ContourFeature
 void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const int direction = direction_ < 0 ? -1 : 1;
   const bool stored = inertia_ratio_from_ == stored_ratio, has_y = recording_.has_scalar("pos_y");
-  for (std::size_t i = 0; i < columns.mode_3.size(); ++i) {
-    const PixelContour contour = outlines_->outline(first + i);
+  outlines_->each(first, columns.mode_3.size(), [&](std::size_t event, const PixelContour& contour) {
+    const std::size_t i = event - first;
     const HullAsymmetry hull = asymmetry(contour, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
     columns.mode_2[i] = hull.mode_2;
     columns.mode_3[i] = direction * hull.mode_3;
@@ -76,7 +76,7 @@ void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
     if (!has_y)
       columns.y_um[i] =
           std::isfinite(hull.mode_3) ? conditions_.pixel_size_um * measurer_.hull().moments().y : no_value;
-  }
+  });
   if (has_y) recording_.read_scalar("pos_y", first, columns.y_um);
 }
 

@@ -53,13 +53,13 @@ class OutlineReader {
   int direction() const { return direction_; }
 
   void read(std::size_t first, std::span<ContourFeatures> features, std::span<OutlineTilt> tilt) {
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      const PixelContour contour = outlines_.outline(first + i);
+    outlines_.each(first, features.size(), [&](std::size_t event, const PixelContour& contour) {
+      const std::size_t i = event - first;
       features[i] = measurer_.measure(contour, pixel_size_um_);
       tilt[i] = {};
-      if (!std::isfinite(features[i].area_um2)) continue;
+      if (!std::isfinite(features[i].area_um2)) return;
       tilt[i] = contour_tilt(contour, measurer_.hull(), direction_ < 0 ? -1 : 1, outlines_.picture());
-    }
+    });
   }
 
  private:

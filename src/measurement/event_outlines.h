@@ -1,12 +1,14 @@
 // The shapes of a recording's cells from their contours or masks, event by event.
 #pragma once
+#include <array>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "measurement/contour_from_mask.h"
 #include "measurement/recording.h"
 #include "shape/outline_shape.h"
+#include "store/work_in_turn.h"
 
 namespace rheocyte {
 
@@ -21,17 +23,36 @@ class EventOutlines {
   ShapeVector features(std::size_t event);
   /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
+  /// work(event, contour) for each of these events in their order, with what outline() returns: in another thread,
+  /// while the next ones are read. Returns when all is done. UserError if the data are damaged; what `work` throws.
+  void each(std::size_t first, std::size_t count,
+            const std::function<void(std::size_t event, const PixelContour&)>& work);
   /// The size of the pictures; 0 x 0 if unknown.
   const ImageSize& picture() const { return picture_; }
   std::size_t events() const { return recording_.events(); }
 
  private:
+  /// Of some events in a row as the file holds them.
+  struct Stored {
+    std::size_t first = 0, count = 0;
+    std::vector<PixelContour> contours;  ///< if the recording has some
+    std::vector<std::uint8_t> pixels;    ///< else of the masks
+
+    bool has(std::size_t event) const { return event >= first && event < first + count; }
+  };
+  /// `stored` keeps its memory.
+  void read(std::size_t first, std::size_t count, Stored& stored) const;
+  /// Valid until the next call.
+  const PixelContour& contour(const Stored& stored, std::size_t event);
+  const PixelContour& contour_at_hand(std::size_t event);
+
   const Recording& recording_;
   double pixel_um_;
-  std::optional<ImageSize> size_;  ///< of the masks, if there are no contours
+  bool are_contours_;
   ImageSize picture_;
-  std::size_t block_ = 1, first_ = 0, count_ = 0;  ///< events whose masks are at hand
-  std::vector<std::uint8_t> pixels_;
+  std::size_t block_ = 1;  ///< events whose masks are read in one go
+  Stored at_hand_;
+  std::array<Stored, WorkInTurn::most_waiting + 2> in_turn_;  ///< read, being worked on, and waiting
   ContourFinder finder_;
 };
 

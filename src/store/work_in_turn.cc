@@ -6,12 +6,6 @@
 
 namespace rheocyte {
 
-namespace {
-
-constexpr std::size_t most_waiting = 2;
-
-}  // namespace
-
 WorkInTurn::WorkInTurn() {
   if (is_in_place_) return;
   try {

@@ -13,6 +13,7 @@ namespace rheocyte {
 class WorkInTurn {
  public:
   using Piece = std::function<void()>;
+  static constexpr std::size_t most_waiting = 2;
 
   WorkInTurn();
   /// Waits for the piece at hand; those that wait are dropped.
@@ -20,8 +21,8 @@ class WorkInTurn {
   WorkInTurn(const WorkInTurn&) = delete;
   WorkInTurn& operator=(const WorkInTurn&) = delete;
 
-  /// Does the piece after those before it, by itself where the system has no thread for it. Waits while two pieces
-  /// wait. Throws what an earlier piece has thrown; then no other one is done any more.
+  /// Does the piece after those before it, by itself where the system has no thread for it. Waits while most_waiting
+  /// pieces wait. Throws what an earlier piece has thrown; then no other one is done any more.
   void add(Piece piece);
   /// Waits until all are done. Throws likewise.
   void finish();
