@@ -30,8 +30,8 @@ def equally_long(**arrays):
 
 
 def number(value, name):
-    """One finite number."""
-    array = numbers(value, name)
+    """One finite number; a text or True, which numpy would take for one, is none."""
+    array = np.empty(0) if isinstance(value, (str, bool, np.bool_)) else numbers(value, name)
     if array.size != 1 or not np.isfinite(array).all():
         raise UserError(f"{name} is {value!r}; one finite number is wanted.")
     return float(array.reshape(())) if array.ndim else float(array)

@@ -197,6 +197,8 @@ def test_texts_go_where_they_are_wanted(table, tmp_path):
     ([1], [0.1], {**EVEN, "medium": "honey", "temperature_C": 23}, "honey"),
     ([1], [0.1], {**EVEN, "medium": "water", "temperature_C": 23, "viscosity_model": "mine"}, None),
     ([1], [0.1], {**SMOOTH, "channel_width_um": -1}, "channel_width_um is -1"),
+    ([1], [0.1], {**SMOOTH, "channel_width_um": "20"}, "channel_width_um is '20'; one finite number is wanted"),
+    ([1], [0.1], {**SMOOTH, "channel_width_um": True}, "channel_width_um is True; one finite number is wanted"),
     ([1], [0.1], {**SMOOTH, "flow_rate_ul_s": np.nan}, "flow_rate_ul_s"),
     ([1], [0.1], {**SMOOTH, "pixel_size_um": -0.3}, "pixel_size_um"),
     ([1, 2], [0.1, 0.1], {**EVEN, "viscosity_mPas": [1, 2, 3]}, "viscosity_mPas 3"),
