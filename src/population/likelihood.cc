@@ -1,11 +1,10 @@
 #include "population/likelihood.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 
-#include "store/thread.h"
+#include "store/tasks.h"
 
 namespace rheocyte {
 namespace {
@@ -15,14 +14,9 @@ constexpr std::size_t events_per_block = 128;
 
 /// work(0) .. work(count - 1), each once.
 void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  const auto take = [&](int) {
-    for (std::size_t k = next++; k < count; k = next++) work(k);
-  };
-  const int wanted = int(std::min(std::size_t(std::max(threads, 1)), count));
-  if (wanted < 2) return take(0);
-  const auto others = start_threads(wanted - 1, take);
-  take(0);
+  Tasks tasks;
+  for (std::size_t k = 0; k < count; ++k) tasks.add(0, [&work, k](int) { work(k); });
+  tasks.run(int(std::min(count, std::size_t(std::max(threads, 1)))));
 }
 
 }  // namespace
