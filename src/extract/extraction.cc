@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "case/user_error.h"
 #include "extract/common_errors.h"
@@ -114,7 +115,14 @@ void add_common_errors(ExtractSummary& s) {
   flow.viscosity_mPas = s.mean_viscosity_mPas;
   const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
   const double common = common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
-  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, s.modulus_kPa.median_error, common * s.modulus_kPa.median};
+  // Of a few events the scatter tells less than the error of each.
+  const double of_events = s.median_standard_error_kPa * std::sqrt(std::numbers::pi / 2 / double(s.with_modulus()));
+  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, std::fmax(s.modulus_kPa.median_error, of_events),
+                                 common * s.modulus_kPa.median};
+  const auto count = [&](ModulusState state) { return s.counts[static_cast<std::size_t>(state)]; };
+  s.shapes.with_deformation = s.with_modulus();
+  s.shapes.too_stiff = count(ModulusState::too_stiff) + count(ModulusState::unresolved);
+  s.shapes.too_soft = count(ModulusState::too_soft) + count(ModulusState::unstable);
   const ElongatedBy by = s.shapes.elongated_by;
   s.shapes.elongated_common_error = common_error_of_elongated(by, reynolds);
   if (s.shapes.with_elongation == 0) return;

@@ -11,6 +11,7 @@
 #include "extract/gates.h"
 #include "extract/modulus_tables.h"
 #include "extract/options.h"
+#include "extract/shape_tally.h"
 #include "measurement/event_features.h"
 #include "measurement/recording.h"
 #include "measurement/shape_source.h"

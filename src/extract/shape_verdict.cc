@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
@@ -13,50 +12,43 @@ namespace rheocyte {
 
 namespace {
 
-constexpr double of_the_model = 0.02, still_doubtful = 0.05;              // medians of the excess
-constexpr std::size_t fewest_for_a_verdict = 5, fewest_for_a_trend = 20;  // events
-constexpr double min_length_um = 15;                                      // of what a recording sees, for a trend
-
-/// Least squares over the places, without what lies four robust deviations from the median.
-Trend trend_of(std::span<const double> x, std::span<const double> y, double length) {
-  std::vector<double> finite;
-  for (const double v : y)
-    if (std::isfinite(v)) finite.push_back(v);
-  if (finite.size() < fewest_for_a_trend || !(length >= min_length_um)) return {no_value, no_value, no_value};
-  const CountedSample<double> sample(finite);
-  const double middle = sample.quantile(0.5), widest = 4 * robust_deviation(sample);
-  double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !(std::abs(y[i] - middle) <= widest)) continue;
-    const double dx = x[i] - mean_x, dy = y[i] - mean_y;  // Welford's sums
-    ++n;
-    mean_x += dx / n;
-    mean_y += dy / n;
-    xx += dx * (x[i] - mean_x);
-    xy += dx * (y[i] - mean_y);
-    yy += dy * (y[i] - mean_y);
-  }
-  if (n < static_cast<double>(fewest_for_a_trend) || !(xx > 0)) return {no_value, no_value, middle};
-  const double slope = xy / xx, rest = std::max(0.0, yy - slope * xy) / (n - 2);
-  return {slope * length, std::sqrt(rest / xx) * length, middle};
-}
+constexpr double of_the_model = 0.02, still_doubtful = 0.05;  // medians of the excess
+constexpr std::size_t fewest_for_a_verdict = 5;               // events
+constexpr double most_cut_off = 0.05;                         // of the events, at one end of a table
 
 std::string changes_text(const char* name, const Trend& trend) {
   return fmt::format("{} {:+.2g} +- {:.2g} of {:.3g}", name, trend.change, trend.error, trend.median);
 }
 
-/// Which of both explains an asymmetry that grows downstream: cells that approach the axis, or that creep. Empty where
-/// it does not grow.
-std::string centring_or_creep(const ShapeVerdict& v) {
-  const double growth = v.direction * v.asymmetry_trend.change;
-  if (!v.asymmetry_trend.is_changing() || !(growth > 0) || !std::isfinite(v.mode_4_trend.error)) return {};
-  // Of a cell that approaches the axis, with its cortex as those of HL60 have it (docs/real-cells.md).
-  constexpr double mode_3_per_um2 = -0.0146, mode_4_over_mode_3 = -0.007 / 0.0065, sure = 2;
-  const double fall = v.direction * v.mode_4_trend.change, expected = mode_4_over_mode_3 * growth;
+/// What explains an asymmetry that grows downstream.
+enum class Growth { none, of_creeping_cells, of_centring_cells };
+struct GrowthOfAsymmetry {
+  Growth kind = Growth::none;
+  double growth = 0, change_of_mode_4 = 0, expected = 0;  ///< of c_4 if cells approach the axis
+};
+// Of a cell that approaches the axis, with its cortex as those of HL60 have it (docs/real-cells.md).
+constexpr double mode_3_per_um2 = -0.0146, mode_4_over_mode_3 = -0.007 / 0.0065;
+
+GrowthOfAsymmetry growth_of(const ShapeVerdict& v) {
+  GrowthOfAsymmetry g{.growth = v.direction * v.asymmetry_trend.change};
+  if (!v.asymmetry_trend.is_changing() || !(g.growth > 0) || !std::isfinite(v.mode_4_trend.error)) return g;
+  constexpr double sure = 2;
+  g.change_of_mode_4 = v.direction * v.mode_4_trend.change;
+  g.expected = mode_4_over_mode_3 * g.growth;
   const double error = std::hypot(v.mode_4_trend.error, mode_4_over_mode_3 * v.asymmetry_trend.error);
-  const std::string change = fmt::format("c4 changes by {:+.2g} +- {:.1g}, {:+.2g} if cells approach the axis", fall,
-                                         v.mode_4_trend.error, expected);
-  if (!(fall < -sure * v.mode_4_trend.error) || !(std::abs(fall - expected) < sure * error + std::abs(expected) / 2))
+  const bool approaches = g.change_of_mode_4 < -sure * v.mode_4_trend.error &&
+                          std::abs(g.change_of_mode_4 - g.expected) < sure * error + std::abs(g.expected) / 2;
+  g.kind = approaches ? Growth::of_centring_cells : Growth::of_creeping_cells;
+  return g;
+}
+
+/// Empty where it does not grow.
+std::string centring_or_creep(const ShapeVerdict& v) {
+  const GrowthOfAsymmetry g = growth_of(v);
+  if (g.kind == Growth::none) return {};
+  const std::string change = fmt::format("c4 changes by {:+.2g} +- {:.1g}, {:+.2g} if cells approach the axis",
+                                         g.change_of_mode_4, v.mode_4_trend.error, g.expected);
+  if (g.kind == Growth::of_creeping_cells)
     return fmt::format("; downstream c3 grows, as of cells that creep, not of cells that approach the axis ({})",
                        change);
   if (!v.beside_axis.is_centring())
@@ -65,7 +57,7 @@ std::string centring_or_creep(const ShapeVerdict& v) {
   return fmt::format(
       "; downstream c3 grows, as of cells that still approach the axis, not of cells that creep ({}; "
       "it takes {:.2g} um2 of their squared distance from the axis, height included)",
-      change, -growth / mode_3_per_um2);
+      change, -g.growth / mode_3_per_um2);
 }
 
 /// Which cells they are, and what that means for the moduli.
@@ -114,6 +106,14 @@ std::string elongated_text(const ShapeVerdict& v) {
                                                : "");
 }
 
+std::string cut_off_text(const ShapeVerdict& v) {
+  const bool are_stiff = v.too_stiff > v.too_soft;
+  return fmt::format(
+      "{} of {} events are {} a modulus from area and deformation, whose median would be that of the {} ones",
+      are_stiff ? v.too_stiff : v.too_soft, v.with_deformation + v.too_stiff + v.too_soft,
+      are_stiff ? "too stiff for" : "too soft for", are_stiff ? "softer" : "stiffer");
+}
+
 /// With the errors that are known, and what they are.
 std::string report_text(const Median& modulus, std::string_view from) {
   std::string_view meaning;
@@ -140,83 +140,6 @@ Median median_with_error(std::vector<double> values) {
 }
 
 bool Trend::is_changing() const { return std::abs(change) > 3 * error && std::abs(change) > 0.05 * std::abs(median); }
-
-void ShapeTally::take(const JudgedEvents& e) {
-  const auto at = [](std::span<const double> values, std::size_t i) {
-    return values.empty() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(values[i]);
-  };
-  for (std::size_t i = 0; i < e.excess.size(); ++i) {
-    const ShapeExcess& excess = e.excess[i];
-    if (!std::isfinite(excess.excess)) continue;
-    if (e.inertia_ratio[i] > max_inertia_ratio_of_cells) {
-      ++red_cells_;
-      continue;
-    }
-    const ElongationBlock& drawn = e.elongation;
-    if (!drawn.modulus_kPa.empty() && std::isfinite(drawn.modulus_kPa[i]))
-      drawn_.push_back({drawn.modulus_kPa[i], static_cast<float>(e.modulus_kPa[i] / drawn.modulus_kPa[i]),
-                        at(drawn.elongation, i), at(drawn.axial_tension_Pa, i), at(e.mode_4_excess, i),
-                        at(e.mode_5_excess, i)});
-    elongated_ += excess.is_elongated() ? 1 : 0;
-    const OutlineTilt tilt = e.tilt.empty() ? OutlineTilt{} : e.tilt[i];
-    events_.push_back({static_cast<float>(excess.excess), static_cast<float>(excess.expected), at(e.inertia_ratio, i),
-                       static_cast<float>(excess.odd_fraction), at(e.area_um2, i), at(e.deformation, i),
-                       at(e.mode_3, i), at(e.x_um, i), at(e.mode_4, i), at(e.y_um, i),
-                       static_cast<float>(tilt.sine_mode_2), static_cast<float>(tilt.flank_slope)});
-  }
-}
-
-std::vector<double> ShapeTally::column(float Event::*member) const {
-  std::vector<double> values;
-  for (const Event& event : events_) values.push_back(event.*member);
-  return values;
-}
-
-std::vector<double> ShapeTally::drawn(float Drawn::*member) const {
-  std::vector<double> values;
-  for (const Drawn& cell : drawn_) values.push_back(cell.*member);
-  return values;
-}
-
-JudgedShapes ShapeTally::judged() const {
-  return {column(&Event::inertia_ratio), column(&Event::area), column(&Event::deformation)};
-}
-
-BesideAxis ShapeTally::beside_axis(int direction, const ChannelFlow& flow) const {
-  const auto x = column(&Event::x), y = column(&Event::y), sine = column(&Event::sine_mode_2),
-             flank = column(&Event::flank_slope), area = column(&Event::area), ratio = column(&Event::inertia_ratio);
-  return rheocyte::beside_axis({x, y, sine, flank, area, ratio}, direction, flow);
-}
-
-ShapeVerdict ShapeTally::verdict() const {
-  ShapeVerdict v;
-  v.judged = events_.size();
-  v.elongated = elongated_;
-  v.red_cells = red_cells_;
-  const auto median = [&](float Event::*member) { return median_with_error(column(member)).value; };
-  v.excess = median_with_error(column(&Event::excess));
-  v.inertia_ratio = median(&Event::inertia_ratio);
-  v.expected_inertia_ratio = median(&Event::expected);
-  v.odd_fraction = median(&Event::odd_fraction);
-  const auto x = column(&Event::x);
-  auto places = x;
-  std::erase_if(places, [](double place) { return !std::isfinite(place); });
-  v.seen_um = central_width(places);
-  v.inertia_ratio_trend = trend_of(x, column(&Event::inertia_ratio), v.seen_um);
-  v.deformation_trend = trend_of(x, column(&Event::deformation), v.seen_um);
-  v.asymmetry_trend = trend_of(x, column(&Event::mode_3), v.seen_um);
-  v.mode_4_trend = trend_of(x, column(&Event::mode_4), v.seen_um);
-  std::vector<double> moduli;
-  for (const Drawn& cell : drawn_) moduli.push_back(cell.modulus_kPa);
-  v.elongated_kPa = distribution_of(moduli);
-  v.with_elongation = drawn_.size();
-  v.modulus_ratio = median_with_error(drawn(&Drawn::ratio)).value;
-  v.elongation = median_with_error(drawn(&Drawn::elongation));
-  v.axial_tension_Pa = median_with_error(drawn(&Drawn::axial_tension_Pa));
-  v.cortex_mode_4 = median_with_error(drawn(&Drawn::mode_4_excess));
-  v.cortex_mode_5 = median_with_error(drawn(&Drawn::mode_5_excess));
-  return v;
-}
 
 double ShapeVerdict::elongated_percent() const {
   return judged == 0 ? no_value : 100 * static_cast<double>(elongated) / static_cast<double>(judged);
@@ -262,10 +185,38 @@ bool ShapeVerdict::has_cortex_shapes() const {
   return with_elongation >= fewest_for_a_verdict && (differs(cortex_mode_4) || differs(cortex_mode_5));
 }
 
+bool ShapeVerdict::is_cut_off() const {
+  const double difference = std::abs(double(too_stiff) - double(too_soft));
+  return difference > most_cut_off * double(with_deformation + too_stiff + too_soft);
+}
+
+bool ShapeVerdict::is_told_by_outlines() const {
+  return elongated_by == ElongatedBy::modes && with_elongation >= fewest_for_a_verdict &&
+         double(with_elongation) >= (1 - most_cut_off) * double(judged);
+}
+
+bool ShapeVerdict::is_contradicted() const {
+  constexpr double least = 0.05, sure = 3;
+  const Median& d = by_deformation_kPa;
+  const double error =
+      std::hypot(std::hypot(d.error, d.common_error) / d.value,
+                 std::hypot(elongated_kPa.median_error / elongated_kPa.median, elongated_common_error));
+  return is_told_by_outlines() && std::abs(std::log(d.value / elongated_kPa.median)) > std::max(least, sure * error);
+}
+
+bool ShapeVerdict::is_creeping() const {
+  constexpr double most = 0.2;  // of c_3
+  const GrowthOfAsymmetry g = growth_of(*this);
+  return g.kind == Growth::of_creeping_cells && g.growth > most * std::abs(asymmetry_trend.median);
+}
+
 ShapeVerdict::Modulus ShapeVerdict::recommended() const {
-  if (fit() == Fit::model || fit() == Fit::unknown) return Modulus::by_deformation;
-  if (with_elongation < fewest_for_a_verdict || has_cortex_shapes()) return Modulus::none;
-  return Modulus::elongated;
+  if (has_cortex_shapes() || is_creeping()) return Modulus::none;
+  if (fit() == Fit::model || fit() == Fit::unknown) {
+    if (is_cut_off()) return is_told_by_outlines() ? Modulus::elongated : Modulus::none;
+    return is_contradicted() ? Modulus::elongated : Modulus::by_deformation;
+  }
+  return with_elongation < fewest_for_a_verdict ? Modulus::none : Modulus::elongated;
 }
 
 Median ShapeVerdict::recommended_kPa() const {
@@ -280,17 +231,41 @@ Median ShapeVerdict::recommended_kPa() const {
           std::hypot(elongated_common_error, of_another_law) * elongated_kPa.median};
 }
 
+namespace {
+
+std::string none_text(const ShapeVerdict& v) {
+  if (v.has_cortex_shapes())
+    return fmt::format(
+        "no single modulus describes these cells: the outlines have the flat rear and the straight flanks of cells "
+        "with a cortex (c4 {:+.4f} +- {:.4f}, c5 {:+.4f} +- {:.4f} beyond those of solids); c3 then tells little "
+        "of stiffness: use `rheocyte moduli`.",
+        v.cortex_mode_4.value, v.cortex_mode_4.error, v.cortex_mode_5.value, v.cortex_mode_5.error);
+  if (v.is_creeping())
+    return "no modulus can be recommended: the shapes change along the channel as those of cells that creep; `rheocyte "
+           "time-course` tells modulus and viscosity of such cells.";
+  if (!v.is_cut_off())
+    return "no modulus can be recommended: the cells are not those of the table, and too few have one as elongated "
+           "cells.";
+  return fmt::format("no modulus can be recommended: {}; `rheocyte population` takes all events into account.",
+                     cut_off_text(v));
+}
+
+/// Why the outlines tell more than area and deformation of cells whose shapes are those of the model.
+std::string outlines_text(const ShapeVerdict& v) {
+  if (v.is_cut_off()) return cut_off_text(v) + ".";
+  return fmt::format(
+      "that from area and deformation, {}, is {:.0f} % {}: pixels and errors of the segmentation change the "
+      "deformation "
+      "most, c3 least.",
+      text_with_errors(v.by_deformation_kPa), 100 * std::abs(v.by_deformation_kPa.value / v.elongated_kPa.median - 1),
+      v.by_deformation_kPa.value < v.elongated_kPa.median ? "lower" : "higher");
+}
+
+}  // namespace
+
 std::string ShapeVerdict::recommended_text() const {
   switch (recommended()) {
-    case Modulus::none:
-      if (has_cortex_shapes())
-        return fmt::format(
-            "no single modulus describes these cells: the outlines have the flat rear and the straight flanks of cells "
-            "with a cortex (c4 {:+.4f} +- {:.4f}, c5 {:+.4f} +- {:.4f} beyond those of solids); c3 then tells little "
-            "of stiffness: use `rheocyte moduli`.",
-            cortex_mode_4.value, cortex_mode_4.error, cortex_mode_5.value, cortex_mode_5.error);
-      return "no modulus can be recommended: the cells are not those of the table, and too few have one as elongated "
-             "cells.";
+    case Modulus::none: return none_text(*this);
     case Modulus::by_deformation:
       if (!std::isfinite(by_deformation_kPa.value)) return {};
       return report_text(by_deformation_kPa, "from area and deformation") +
@@ -298,6 +273,8 @@ std::string ShapeVerdict::recommended_text() const {
                                   : "; whether the shapes are those of the model is unknown.");
     case Modulus::elongated: break;
   }
+  if (fit() == Fit::model || fit() == Fit::unknown)
+    return fmt::format("{}: {}", report_text(recommended_kPa(), "by the outlines"), outlines_text(*this));
   if (fit() == Fit::other_table)
     return fmt::format(
         "{}: they are not the cells of the table, but {}; the asymmetry tells about the same modulus of both; the "
@@ -312,7 +289,7 @@ std::string ShapeVerdict::recommended_text() const {
 std::string ShapeVerdict::trend_text() const {
   if (judged == 0) return {};
   if (!std::isfinite(seen_um)) return "no pos_x: whether the shapes still change along the channel is unknown.";
-  if (seen_um < min_length_um)
+  if (seen_um < least_length_of_trend_um)
     return fmt::format("the cells are seen at one place ({:.2g} um): whether they still change is unknown.", seen_um);
   if (judged < fewest_for_a_trend || !std::isfinite(deformation_trend.change))
     return fmt::format("too few events for a trend along the channel ({}).", judged);

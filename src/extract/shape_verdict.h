@@ -2,7 +2,6 @@
 // (docs/real-cells.md).
 #pragma once
 #include <cstddef>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -10,9 +9,7 @@
 #include "extract/beside_axis.h"
 #include "extract/distribution.h"
 #include "extract/elongation_columns.h"
-#include "infer/shape_excess.h"
 #include "numeric/no_value.h"
-#include "shape/outline_tilt.h"
 
 namespace rheocyte {
 
@@ -27,6 +24,9 @@ struct Median {
     return std::tie(s.value, s.error, s.common_error);
   }
 };
+
+inline constexpr std::size_t fewest_for_a_trend = 20;  ///< events
+inline constexpr double least_length_of_trend_um = 15;
 
 /// How a feature changes along the channel.
 struct Trend {
@@ -73,6 +73,7 @@ struct ShapeVerdict {
   Trend mode_4_trend;
   int direction = 0;          ///< in which the cells move: along +x or -x; 0 if that is unknown
   Median by_deformation_kPa;  ///< Young's modulus from area and deformation
+  std::size_t with_deformation = 0, too_stiff = 0, too_soft = 0;  ///< events with it, and those that the table lacks
   ElongatedBy elongated_by = ElongatedBy::modes;
   Distribution elongated_kPa;                ///< Young's moduli by the table of elongated cells
   double elongated_common_error = no_value;  ///< of their median, relative (common_errors.h)
@@ -88,8 +89,9 @@ struct ShapeVerdict {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_fraction, s.seen_um,
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
-                    s.by_deformation_kPa, s.elongated_by, s.elongated_kPa, s.elongated_common_error, s.with_elongation,
-                    s.modulus_ratio, s.elongation, s.axial_tension_Pa, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.by_deformation_kPa, s.with_deformation, s.too_stiff, s.too_soft, s.elongated_by, s.elongated_kPa,
+                    s.elongated_common_error, s.with_elongation, s.modulus_ratio, s.elongation, s.axial_tension_Pa,
+                    s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -100,6 +102,15 @@ struct ShapeVerdict {
   std::string text() const;
   /// Whether the outlines have the flat rear and the straight flanks of cells with a cortex, which no solid has.
   bool has_cortex_shapes() const;
+  /// Whether so many more events lack a modulus from area and deformation at one end of the table than at the other
+  /// that the median of the rest is not that of all.
+  bool is_cut_off() const;
+  /// Whether the outlines tell another modulus than area and deformation, beyond the errors of both.
+  bool is_contradicted() const;
+  /// Whether the outlines give nearly all events a modulus that is to be believed.
+  bool is_told_by_outlines() const;
+  /// Whether the shapes change along the channel as those of cells that creep, by so much that they tell no modulus.
+  bool is_creeping() const;
   /// Which number is to be reported, and why; nothing without one.
   enum class Modulus { none, by_deformation, elongated };
   Modulus recommended() const;
@@ -113,49 +124,6 @@ struct ShapeVerdict {
 /// For the terminal: the sentence, the trend, both moduli, and how many red cells there are; nothing if nothing is
 /// known.
 std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
-
-/// What is known of a block of events, spans of one length; empty where a recording has nothing of the kind. Events
-/// outside the gates have no inertia ratio.
-struct JudgedEvents {
-  std::span<const ShapeExcess> excess;
-  std::span<const double> inertia_ratio, area_um2, deformation, mode_3, x_um;
-  std::span<const double> modulus_kPa;
-  ElongationBlock elongation = {};
-  /// c_4 and c_5 beyond those of the elongated cell; empty where no outlines are measured.
-  std::span<const double> mode_4_excess = {}, mode_5_excess = {};
-  std::span<const double> mode_4 = {}, y_um = {};
-  std::span<const OutlineTilt> tilt = {};
-};
-
-/// The events that were judged, one value each, as measured.
-struct JudgedShapes {
-  std::vector<double> inertia_ratio, area_um2, deformation;
-};
-
-/// Takes block by block; keeps 64 bytes per event.
-class ShapeTally {
- public:
-  void take(const JudgedEvents& events);
-  /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
-  ShapeVerdict verdict() const;
-  BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
-  JudgedShapes judged() const;
-
- private:
-  struct Event {
-    float excess, expected, inertia_ratio, odd_fraction, area, deformation, mode_3, x;
-    float mode_4, y, sine_mode_2, flank_slope;
-  };
-  std::vector<double> column(float Event::*member) const;
-  std::vector<Event> events_;
-  struct Drawn {
-    double modulus_kPa;
-    float ratio, elongation, axial_tension_Pa, mode_4_excess, mode_5_excess;
-  };
-  std::vector<double> drawn(float Drawn::*member) const;
-  std::vector<Drawn> drawn_;
-  std::size_t elongated_ = 0, red_cells_ = 0;
-};
 
 inline constexpr double max_inertia_ratio_of_cells = 2;  ///< red cells rest in a longer shape
 

@@ -1,11 +1,11 @@
 // What is said about the shapes of a recording.
-#include "extract/shape_verdict.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "extract/shape_tally.h"
 
 namespace rheocyte::shape_verdict_test {
 namespace {
@@ -143,7 +143,8 @@ TEST(ShapeVerdict, MoreEventsMakeTheErrorByScatterSmallerAndNotWhatTheyHaveInCom
 }
 
 TEST(ShapeVerdict, CellsOfTheModelAreReportedByTheirDeformation) {
-  const ShapeVerdict v = elongated_verdict(0, 0, 0.005);
+  ShapeVerdict v = elongated_verdict(0, 0, 0.005);
+  v.elongated_kPa.median = 1.04;
   EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation);
   EXPECT_NE(v.recommended_text().find("report E = 1 +- 0.01 +- 0.03 kPa"), std::string::npos) << v.recommended_text();
   ShapeVerdict without = v;  // as by a published table, whose errors nobody knows
@@ -152,6 +153,53 @@ TEST(ShapeVerdict, CellsOfTheModelAreReportedByTheirDeformation) {
       without.recommended_text().find("report E = 1 +- 0.01 kPa (median, from area and deformation; the error is"),
       std::string::npos)
       << without.recommended_text();
+}
+
+TEST(ShapeVerdict, WhereOutlinesAndDeformationDisagreeTheOutlinesAreBelieved) {
+  ShapeVerdict v = elongated_verdict(0, 0, 0.005);
+  v.elongated_kPa.median = 1.2;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
+  EXPECT_NE(v.recommended_text().find("that from area and deformation, 1 +- 0.01 +- 0.03, is 17 % lower"),
+            std::string::npos)
+      << v.recommended_text();
+  v.by_deformation_kPa.common_error = 0.1;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "within three errors";
+  v = elongated_verdict(0, 0, 0.005);
+  v.with_elongation = 25;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "of 30 events";
+  v = elongated_verdict(0, 0, 0.005);
+  v.elongated_by = ElongatedBy::inertia;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "which is told by the deformation, too";
+}
+
+TEST(ShapeVerdict, AMedianOfCellsWithoutTheirStiffOrSoftOnesIsNotRecommended) {
+  ShapeVerdict v = elongated_verdict(0, 0, 0.005);
+  v.elongated_kPa.median = 1;
+  v.with_deformation = 20;
+  v.too_stiff = 10;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
+  EXPECT_NE(v.recommended_text().find("10 of 30 events are too stiff for a modulus from area and deformation, whose "
+                                      "median would be that of the softer ones."),
+            std::string::npos)
+      << v.recommended_text();
+  v.with_elongation = 20;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
+  EXPECT_NE(v.recommended_text().find("`rheocyte population` takes all"), std::string::npos) << v.recommended_text();
+  v.too_soft = 10;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "as many at both ends: the median stays";
+  v.too_stiff = 0;
+  EXPECT_NE(v.recommended_text().find("10 of 30 events are too soft for"), std::string::npos) << v.recommended_text();
+}
+
+TEST(ShapeVerdict, CellsThatCreepHaveNoModulusHere) {
+  ShapeVerdict v = elongated_verdict(0, 0);
+  v.direction = 1;
+  v.asymmetry_trend = {.change = 0.03, .error = 0.001, .median = 0.05};
+  v.mode_4_trend = {.change = 0, .error = 0.001, .median = 0};
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
+  EXPECT_NE(v.recommended_text().find("`rheocyte time-course`"), std::string::npos) << v.recommended_text();
+  v.asymmetry_trend.change = 0.008;
+  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
 }
 
 TEST(ShapeVerdict, OutlinesOfCellsWithACortexHaveNoModulusOfASolid) {
