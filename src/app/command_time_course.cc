@@ -54,7 +54,7 @@ int run(const TimeCourseOptions& options) {
     for (const std::string& warning : events.warnings) tell(fmt::format("{}: {}", name, warning));
     courses.add(events, name, contraction_um);
   }
-  const CourseReport report = courses.report();
+  const CourseReport report = courses.report(go_on_unless_stopped);
   replace_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
   if (!options.batch.quiet)
     for (const std::string& line : report.lines) print(line + "\n");

@@ -30,7 +30,7 @@ void print_result(const Result& result, const SolveOptions& options, const std::
 }
 
 int exit_code_of(const Outcome& outcome) {
-  if (outcome.status == Status::stopped) return exit_stopped();
+  if (outcome.status == Status::stopped || stop_wanted()) return exit_stopped();
   return outcome.status == Status::converged ? exit_converged : exit_numerical;
 }
 
@@ -45,6 +45,8 @@ int finish_result(const Result& result, ResultFolder& folder, const SolveOptions
 int report_result(const Result& result, const SolveOptions& options, const nlohmann::ordered_json& numbers) {
   print_result(result, options, json_text(numbers) + "\n");
   const auto& outcome = result.state.outcome;
+  if (outcome.status != Status::stopped && stop_wanted())
+    tell("rheocyte: a signal came before all was done: the error of the numbers, or pictures, may be missing.");
   if (outcome.status != Status::converged)
     tell(fmt::format("rheocyte: {}: {}", name(outcome.status), one_line(outcome.message, 800)));
   return exit_code_of(outcome);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/checkpoint.h"
+#include "app/exit_codes.h"
 #include "app/finish_result.h"
 #include "case/scales.h"
 #include "case/to_path.h"
@@ -138,6 +139,10 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   }
   result.state = transient(result.problem, time_run_of(c, result.scales), recorder.observer(),
                            start ? &*start : nullptr, work_limits(options));
+  if (result.state.outcome.status == Status::stopped && recorder.record().rows.empty()) {
+    tell("rheocyte: stopped by a signal before the first state.");
+    return exit_stopped();
+  }
   recorder.write_all();
   judge_end(result, recorder.record(), work_limits(options));
   refuse_unfinite_numbers(result);

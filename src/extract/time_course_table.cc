@@ -185,18 +185,38 @@ std::string CourseTable::elongation_text(const CourseReport& report) const {
       beyond.value, beyond.error, multiplied.value, multiplied.error);
 }
 
-CourseReport CourseTable::report() const {
+void CourseTable::check_places(const std::vector<CourseCell>& cells) const {
+  std::size_t inside = 0;
+  bool is_seen_again = false;
+  for (const CourseCell& cell : cells) {
+    inside += cell.images.size();
+    is_seen_again = is_seen_again || seen_um(cell.images) >= min_seen_um;
+  }
+  if (!is_seen_again && inside < outside_places_) {
+    const double length = rows_.empty() ? 1 : physical(table_, rows_.front().flow).length;
+    throw UserError(
+        fmt::format("rheocyte: {} of {} events do not lie {:.3g} to {:.3g} um behind the end of the contraction, where "
+                    "the dynamic table {} has cells; is --contraction-um right?",
+                    outside_places_, inside + outside_places_, table_.spec().first_um * length,
+                    table_.spec().last_um * length, table_.spec().identifier));
+  }
+  check_places_seen(cells);
+}
+
+CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
   std::vector<CourseCell> cells;
   std::vector<CellImages> images;
   for (const Row& row : rows_) {
     cells.push_back(row.cell);
     images.push_back(row.cell.images);
   }
-  check_places_seen(cells);
+  check_places(cells);
   CourseReport report;
   std::size_t seen_again = 0;
-  for (const Row& row : rows_)
+  for (const Row& row : rows_) {
+    goes_on();
     if (seen_um(row.cell.images) >= min_seen_um) report.rows.push_back(told(row, ++seen_again));
+  }
   report.remarks = {fmt::format("rheocyte {} time-course", version),
                     fmt::format("dynamic table: {}", table_.spec().identifier)};
   report.remarks.insert(report.remarks.end(), remarks_.begin(), remarks_.end());
@@ -206,7 +226,7 @@ CourseReport CourseTable::report() const {
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
   if (are_elsewhere_) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
-    PopulationEstimate& population = report.population = TimeCourse(table_).population(images);
+    PopulationEstimate& population = report.population = TimeCourse(table_).population(images, goes_on);
     const SectionErrors errors = section_errors(section_factor_of(images), unsettled_);
     population.young_modulus_kPa = widened(population.young_modulus_kPa, errors.modulus);
     population.viscosity_Pas = widened(population.viscosity_Pas, errors.viscosity);

@@ -1,5 +1,6 @@
 // What is told of the cells that recordings saw along a channel, and of their population.
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,9 @@ class CourseTable {
   /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
   void add(const CourseEvents& events, const std::string& name, double contraction_um);
 
-  /// Of all recordings. UserError as check_places_seen.
-  CourseReport report() const;
+  /// Of all recordings; `goes_on` is called from cell to cell. UserError as check_places_seen, and if no cell is seen
+  /// again and most events lie where the table has none.
+  CourseReport report(const std::function<void()>& goes_on) const;
 
  private:
   struct Row {
@@ -58,6 +60,7 @@ class CourseTable {
     ChannelFlow flow;
   };
   CourseRow told(const Row& row, std::size_t number) const;
+  void check_places(const std::vector<CourseCell>& cells) const;
   bool is_of_square() const;  ///< the table
   /// Whether the table's channel and liquid are not those of a recording.
   bool is_elsewhere(const CourseEvents& events) const;

@@ -1,6 +1,7 @@
 // Young's modulus and viscosity of cells from the third mode of their outlines at several places behind a contraction
 // (docs/theory-extract.md, sec. "Time courses").
 #pragma once
+#include <functional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -79,7 +80,8 @@ class TimeCourse {
   /// alike in all cells, too: what the law of the pixels leaves of c_3, at the nearer places and, independently, at the
   /// others.
   static constexpr std::size_t max_cells = 2000;
-  PopulationEstimate population(std::span<const CellImages> cells) const;
+  PopulationEstimate population(
+      std::span<const CellImages> cells, const std::function<void()>& goes_on = [] {}) const;
 
  private:
   struct Points;

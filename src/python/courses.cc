@@ -43,7 +43,14 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
       if (stop) return {};
       courses.add(events, recordings[i].string(), contraction_um[i]);
     }
-    return courses.report();
+    struct Stopped {};
+    try {
+      return courses.report([&] {
+        if (stop) throw Stopped{};
+      });
+    } catch (const Stopped&) {
+      return {};
+    }
   });
   py::dict columns;
   for (const auto& column : course_columns()) {
