@@ -41,6 +41,8 @@ class Source:
 def source_of(given, gated=()):
     """The Source of a path or dataset; `gated` are features that it must hold if the dataset has them."""
     if not hasattr(given, "config"):
+        if not given and isinstance(given, str):
+            raise UserError("the recording is '', which is not a path of a file.")
         yield Source(path(getattr(given, "path", given), "the recording"))
         return
     root, events = _origin(given)

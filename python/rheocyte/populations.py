@@ -133,6 +133,9 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
         setattr(options, name, number(value, name))
     options.widths_um = np.atleast_1d(numbers(width_um, "width_um")).tolist()
     options.media = [medium] if isinstance(medium, str) else list(medium)
+    for name, values in {"width_um": options.widths_um, "medium": options.media}.items():
+        if not values:
+            raise UserError(f"{name} is empty; give one or several.")
     options.rates_ul_s = np.atleast_1d(numbers(rate_ul_s, "rate_ul_s")).tolist()
     table, lines = native.plan(options)
     frame = _plan_frame()(pandas.read_csv(io.StringIO(table), sep="\t"))

@@ -88,6 +88,8 @@ def time_course(recordings, table=None, contraction_um=None, *, progress=None, *
     if contraction_um is None:
         raise UserError("contraction_um is missing: pos_x of the end of the contraction, from which the cells come.")
     several = _several(recordings)
+    if not several:
+        raise UserError("recordings is empty; give one recording or several of one population.")
     places = np.atleast_1d(numbers(contraction_um, "contraction_um"))
     if len(places) not in (1, len(several)):
         raise UserError(f"contraction_um has {len(places)} places for {len(several)} recordings; give one, or one each.")
@@ -119,7 +121,7 @@ def population(conditions, *, progress=None, **settings):
     """
     if hasattr(conditions, "to_dict"):  # a pandas.Series
         conditions = conditions.to_dict()
-    if not isinstance(conditions, Mapping) or not all(isinstance(name, str) for name in conditions):
+    if not isinstance(conditions, Mapping) or not conditions or not all(isinstance(name, str) for name in conditions):
         raise UserError('conditions must be a dictionary of names and recordings, such as {"control": ["A.rtdc"]}.')
     options = filled(native.PopulationOptions(), settings)
     with ExitStack() as stack, progress_bar(progress) as tell:

@@ -21,7 +21,10 @@ constexpr double least_deformation = 0.01, greatest_deformation = 0.03, enough_i
 Buffer buffer_of(const std::string& name) {
   const auto medium = medium_of_name(name);
   if (!medium)
-    throw UserError(fmt::format("rheocyte: --medium {} is not known{}.", one_line(name, 40), near_medium(name)));
+    throw UserError(
+        fmt::format("rheocyte: --medium {} has no known viscosity{}; it can be CellCarrier, CellCarrierB, 0.83% MC-PBS "
+                    "or water, for example.",
+                    one_line(name, 40), near_medium(name)));
   return Buffer(*medium, ViscosityModel::buyukurganci_2022);
 }
 

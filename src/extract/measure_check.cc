@@ -93,7 +93,7 @@ std::vector<ThirdCheck> compared_thirds(MeasureRule rule, const CheckedValues& m
 /// Of all events where these do not fit, else of the first third that does not.
 std::string off_text(const MeasureCheck& check) {
   const auto text = [&](std::string_view of_what, const Median& measured, const Median& predicted) {
-    return fmt::format("{}{} is {:.3g}, predicted {:.3g}{}", check.name, of_what, measured.value, predicted.value,
+    return fmt::format("{}{} is {:.4g}, predicted {:.4g}{}", check.name, of_what, measured.value, predicted.value,
                        check.is_fitted ? "" : " (not fitted)");
   };
   constexpr std::array of_thirds{" of the smallest third", " of the middle third", " of the largest third"};

@@ -158,7 +158,7 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
     refuse_path(
         file,
         "has neither contours nor masks, from which the asymmetry of the outlines follows; populations of solids "
-        "are fitted without them by --by odd-deformation, if there are inertia ratios (inert_ratio_cvx).");
+        "are fitted without them with --by odd-deformation, if there are inertia ratios (inert_ratio_cvx).");
   if (!recording.has_scalar(std::string(stored_inertia_ratio)))
     refuse_path(
         file,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "case/nearest_name.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -72,7 +73,12 @@ void take_settings(const Settings& settings, const Json& given) {
   if (!given.is_object()) throw UserError("The settings are no object.");
   for (const auto& [name, value] : given.items()) {
     const auto setting = std::ranges::find(settings, name, &Setting::name);
-    if (setting == settings.end()) throw UserError(fmt::format("There is no setting {}.", one_line(name, 60)));
+    if (setting == settings.end()) {
+      std::vector<std::string_view> names;
+      for (const Setting& one : settings) names.push_back(one.name);
+      const std::string near = did_you_mean(name, names);
+      throw UserError(fmt::format("There is no setting {}{}", one_line(name, 60), near.empty() ? "." : near));
+    }
     if (!value.is_null()) take(*setting, value_in(value, name), name);
   }
 }

@@ -158,7 +158,7 @@ ShapeVerdict::Fit ShapeVerdict::fit() const {
 std::string ShapeVerdict::text() const {
   const std::string law = model.empty() ? "" : ", " + model, cells = model.empty() ? "the cells of the table" : model;
   const std::string numbers =
-      fmt::format("inertia ratio {:.3g}, expected {:.3g}, excess {:.3f} +- {:.3f}; {:.1f} % of {} events flagged",
+      fmt::format("inertia ratio {:.4g}, expected {:.4g}, excess {:.3f} +- {:.3f}; {:.1f} % of {} events flagged",
                   inertia_ratio, expected_inertia_ratio, excess.value, excess.error, elongated_percent(), judged);
   switch (fit()) {
     case Fit::unknown:

@@ -42,6 +42,17 @@ void tell_bounds(RecordingReport& r) {
       r.warnings.push_back(fmt::format("{} is at its bound and has no interval.", names[k]));
 }
 
+/// Where the table lacks many, the population is told by the shape of the rest.
+void tell_beside_table(RecordingReport& r) {
+  constexpr double worth_a_word = 0.25;
+  const std::size_t events = r.fitted_events + r.beside_table;
+  if (double(r.beside_table) > worth_a_word * double(events))
+    r.warnings.push_back(fmt::format(
+        "{} of {} events lie beyond the cells of the table, or too near its ends; the population is that of "
+        "all cells as far as the distribution of the others tells it.",
+        r.beside_table, events));
+}
+
 }  // namespace
 
 void tell_quantities(RecordingReport& r) {
@@ -78,6 +89,7 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   if (r.fitted.state == FitState::tail) refuse_tail(r, r.fitted.kept_fraction);
   r.failure = failure_of(r);
   tell_bounds(r);
+  tell_beside_table(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
   if (r.failure.empty()) {
     tell_quantities(r);

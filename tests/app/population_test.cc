@@ -108,6 +108,16 @@ TEST_F(PopulationCommand, ErrorsOfTheOutlineAreInTheChecks) {
     EXPECT_TRUE(check["fits"]) << check.dump();
 }
 
+TEST_F(PopulationCommand, ManyCellsBeyondTheTableAreTold) {
+  write_file(folder_.path() / "soft.toml",
+             "[recording]\ncells = 300\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nmedium = "
+             "\"CellCarrier\"\ntemperature_C = 23\n[cell]\nkind = \"solid\"\nradius_um = {mean = 6.2, sd = 0.5}\n"
+             "[cell.bulk]\nyoung_modulus_kPa = {mean = 0.9, sd = 0.1}\n");
+  synth("a.rtdc", {}, "soft.toml");
+  const auto done = call({"population", "--condition", "a=a.rtdc", "--no-picture", "-o", "soft"});
+  EXPECT_NE(done.err.find("events lie beyond the cells of the table"), std::string::npos) << done.err;
+}
+
 TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
   synth("a.rtdc", {"recording.cells=500", "noise.contour_um=0.1"});
   const auto of = [&](const std::string& folder, const std::vector<std::string>& options) {
@@ -168,6 +178,7 @@ TEST_F(PopulationCommand, ASpecificationGivesWhatItsOptionsGive) {
     write_file(folder_.path() / "wrong.toml", text);
     expect_sentence(call({"population", "wrong.toml"}), words);
   };
+  refused("pared = true\n[conditions]\na = [\"a.rtdc\"]\n", "There is no setting pared, did you mean paired?");
   refused("colour = 3\n[conditions]\na = [\"a.rtdc\"]\n", "There is no setting colour");
   refused("paired = 3\n[conditions]\na = [\"a.rtdc\"]\n", "paired must be true or false");
   refused("conditions = 3\n", "conditions must be a section");
@@ -300,7 +311,7 @@ TEST_F(PopulationCommand, APlanNamesAChannelTheSessionsAndWhatLimits) {
   EXPECT_NE(ended.out.find("paired t test"), std::string::npos);
   EXPECT_NE(ended.out.find("what limits is the scatter between recordings"), std::string::npos) << ended.out;
   expect_sentence(call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--medium", "honey"}),
-                  "--medium honey is not known");
+                  "--medium honey has no known viscosity; it can be CellCarrier");
   EXPECT_NE(
       call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--difference", "0.001"}).out.find("\tinf\n"),
       std::string::npos);

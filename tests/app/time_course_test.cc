@@ -132,7 +132,7 @@ TEST_F(TimeCourseCommand, WhatDoesNotTellAViscosityIsRefusedInASentence) {
   expect_sentence(time_course(), "all cells were seen at one place");
   ASSERT_EQ(synth({"--set", "recording.cells=12", "--set", "recording.places_um=[60]"}).exit_code, 0);
   expect_sentence(time_course(), "One picture of a cell does not tell");
-  expect_sentence(time_course({"--contraction-um", "2000"}), "no event lies at a place");
+  expect_sentence(time_course({"--contraction-um", "2000"}), "is --contraction-um right?");
   expect_sentence(time_course({"--contraction-um", "0,1,2"}), "--contraction-um has 3 places for 1 recordings");
   expect_sentence(time_course({"--contraction-um", "0", "--channel-width-um", "30"}),
                   "is for the contraction to one of");

@@ -125,6 +125,8 @@ def test_a_plan_shows_what_follows_from_it():
     plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
     assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
     assert type(plan[["width_um"]]) is type(plan)
+    with pytest.raises(UserError, match="medium is empty"):
+        rheocyte.plan(6.5, 2, medium=[])
 
 
 def with_cortex(record):

@@ -63,7 +63,7 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
     (tmp_path / "damaged.rtdc").write_bytes(b"\x89HDF\r\n\x1a\n" + b"\xff" * 2000)
     with pytest.raises(UserError, match="damaged.rtdc"):
         rheocyte.extract(tmp_path / "damaged.rtdc")
-    for wrong in (5, None, b"a.rtdc", "a\0b", tmp_path):
+    for wrong in (5, None, b"a.rtdc", "a\0b", "", tmp_path):
         with pytest.raises(UserError, match="not a path|is not a file"):
             rheocyte.extract(wrong)
 
@@ -79,6 +79,7 @@ def test_a_file_that_is_none_or_damaged_is_named(tmp_path):
     lambda file: rheocyte.analytic(5, young_modulus_kPa=1, square_duct="no"), lambda file: rheocyte.moduli(file, None),
     lambda file: rheocyte.moduli(file, file, section="round"),
     lambda file: rheocyte.time_course(file, None, 0), lambda file: rheocyte.time_course(file, file, "x"),
+    lambda file: rheocyte.time_course([], contraction_um=0), lambda file: rheocyte.population({}),
     lambda file: rheocyte.synth({}, 5), lambda file: rheocyte.table({}, 5), lambda file: rheocyte.table({}, file, jobs=-1),
     lambda file: rheocyte.solve(radius_um=5, progress=5), lambda file: rheocyte.Session("large"),
     lambda file: rheocyte.features([[True], [True, False]], 0.34), lambda file: rheocyte.features(None, 0.34)])
