@@ -127,7 +127,8 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
 }
 
 std::string ExtractSettings::outside_temperature_text(std::size_t events) const {
-  return fmt::format("{} events have temperatures {}", events, outside(*this));
+  return fmt::format("{} {} {}", events, events == 1 ? "event has a temperature" : "events have temperatures",
+                     outside(*this));
 }
 
 std::vector<std::string> ExtractSettings::lines() const {

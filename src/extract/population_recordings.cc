@@ -274,7 +274,7 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
   r.warnings = events.warnings;
-  if (!events.gates_beside_the_model.empty())
+  if (!events.gates_beside_the_model.empty() && events.gated > 0)
     r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
                                      events.gates_beside_the_model));
   return r;
