@@ -13,6 +13,7 @@
 #include "extract/extract_recording.h"
 #include "extract/extract_summary.h"
 #include "extract/modulus_tables.h"
+#include "extract/shape_words.h"
 #include "extract/summary_table.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"

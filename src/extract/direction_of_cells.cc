@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/shape_verdict.h"
+#include "extract/plausibility.h"
 #include "measurement/contour_features.h"
 
 namespace rheocyte {
@@ -25,7 +25,8 @@ int direction_of_cells(EventOutlines& outlines, double sign) {
       if (contour.size() < fewest_outline_points) continue;
       const HullAsymmetry hull = hull_asymmetry(measurer.find_hull(contour));
       const double c = hull.mode_3;
-      if (!(std::abs(c) < 0.3) || hull.inertia_ratio() > max_inertia_ratio_of_cells) continue;  // no cell, or a red one
+      if (!(std::abs(c) < 0.3) || hull.inertia_ratio() > min_inertia_ratio_of_red_cells)
+        continue;  // no cell, or a red one
       sum += c;
       squares += c * c;
       ++count;

@@ -61,7 +61,8 @@ ElongationBlock ElongationValues::block() const {
   return {modulus_kPa, standard_error_kPa, elongation, elongation_error, axial_tension_Pa, axial_tension_error_Pa};
 }
 
-void ElongationValues::forget(std::size_t event) {
+void ElongationValues::forget(std::size_t event, ModulusState reason) {
+  states[event] = reason;
   for (auto* const column : all()) (*column)[event] = no_value;
 }
 

@@ -39,8 +39,8 @@ struct ElongationValues {
   void assign(std::size_t count);
   ElongatedEstimates estimates();
   ElongationBlock block() const;
-  /// An event without a modulus has none of the numbers.
-  void forget(std::size_t event);
+  /// An event without a modulus, for this reason, has none of the numbers.
+  void forget(std::size_t event, ModulusState reason);
 
  private:
   std::array<std::vector<double>*, 6> all();

@@ -46,6 +46,8 @@ class EventShapes {
   /// By what moduli of elongated cells are told; nothing if they are not.
   std::optional<ElongatedBy> elongated_by() const;
   const ShapeMap* map() const { return tables_.round; }
+  /// Null without one.
+  const ElongatedLiquid* elongated_table() const { return elongated_by() ? tables_.elongated : nullptr; }
   const std::string& inertia_ratio_from() const { return inertia_ratio_from_; }
   /// In which the cells move, from the sign of the mean asymmetry: +1, -1 along x, 0 if chance decides.
   int direction() const { return direction_; }

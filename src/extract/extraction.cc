@@ -10,6 +10,7 @@
 #include "extract/common_errors.h"
 #include "extract/fitting_table.h"
 #include "extract/plausibility.h"
+#include "extract/soft_ends.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
@@ -104,7 +105,7 @@ void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events)
   add_inertia_error(moduli);
   mark_unresolved(moduli);
   for (std::size_t i = 0; i < e.modulus_kPa.size(); ++i)
-    if (std::isnan(e.modulus_kPa[i])) e.forget(i);
+    if (std::isnan(e.modulus_kPa[i])) e.forget(i, e.states[i]);
 }
 
 namespace {
@@ -114,17 +115,14 @@ void add_common_errors(ExtractSummary& s) {
   ChannelFlow flow = s.conditions.flow;
   flow.viscosity_mPas = s.mean_viscosity_mPas;
   const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
-  const double common = common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
-  // Of a few events the scatter tells less than the error of each.
-  const double of_events = s.median_standard_error_kPa * std::sqrt(std::numbers::pi / 2 / double(s.with_modulus()));
-  s.shapes.by_deformation_kPa = {s.modulus_kPa.median, std::fmax(s.modulus_kPa.median_error, of_events),
-                                 common * s.modulus_kPa.median};
-  const auto count = [&](ModulusState state) { return s.counts[static_cast<std::size_t>(state)]; };
-  s.shapes.with_deformation = s.with_modulus();
-  s.shapes.too_stiff = count(ModulusState::too_stiff) + count(ModulusState::unresolved);
-  s.shapes.too_soft = count(ModulusState::too_soft) + count(ModulusState::unstable);
+  JudgedModulus& by_deformation = s.shapes.by_deformation;
+  by_deformation.common_error =
+      common_error_by_deformation(s.median_standard_error_kPa / s.modulus_kPa.median, reynolds);
+  // Of a few events the scatter says less than the error of each.
+  by_deformation.least_error_kPa =
+      s.median_standard_error_kPa * std::sqrt(std::numbers::pi / 2 / double(s.with_modulus()));
   const ElongatedBy by = s.shapes.elongated_by;
-  s.shapes.elongated_common_error = common_error_of_elongated(by, reynolds);
+  s.shapes.by_elongation.common_error = common_error_of_elongated(by, reynolds);
   if (s.shapes.with_elongation == 0) return;
   s.shapes.elongation.common_error = common_error_of_elongation();
   const double modulus_Pa = 1e3 * s.shapes.elongated_kPa.median;
@@ -157,7 +155,9 @@ ExtractSummary Extraction::summary() {
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
+  s.shapes.has_elongated_table = event_shapes_.elongated_by().has_value();
   add_common_errors(s);
+  add_soft_ends(s);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
   s.warnings = recording_.remarks();
@@ -169,6 +169,17 @@ ExtractSummary Extraction::summary() {
   if (recording_.has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
+}
+
+// Where moduli end in the tables, for a bound of a median beyond them.
+void Extraction::add_soft_ends(ExtractSummary& s) const {
+  const SofterCells softer = shape_tally_.softer();
+  const MeasuringConditions& conditions = settings_.conditions;
+  s.shapes.by_deformation.soft_end_kPa =
+      softest_modulus_kPa(table(), conditions, softer.area_um2, s.mean_viscosity_mPas);
+  if (const ElongatedLiquid* const elongated = event_shapes_.elongated_table())
+    s.shapes.by_elongation.soft_end_kPa =
+        softest_modulus_kPa(*elongated, conditions, softer.elongated, s.mean_viscosity_mPas);
 }
 
 // What a virtual recording says of its cells, and which table has such ones.
@@ -237,7 +248,8 @@ void Extraction::collect() {
   }
   const ShapeColumns& s = columns_.shapes;
   shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
-                     s.elongation.block(), s.mode_4_excess, s.mode_5_excess, s.mode_4, s.y_um, s.tilt});
+                     s.elongation.block(), s.mode_4_excess, s.mode_5_excess, s.mode_4, s.y_um, s.tilt, columns_.states,
+                     s.elongation.states, s.elongation.cells});
 }
 
 void Extraction::count_inertial(double viscosity_mPas) {
@@ -281,7 +293,7 @@ void Extraction::apply_gates(std::size_t first) {
     c.modulus[i] = c.standard_error[i] = no_value;
     c.states[i] = ModulusState::gated;
     c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
-    if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i);
+    if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i, ModulusState::gated);
   }
 }
 

@@ -60,6 +60,7 @@ class Extraction {
   std::string comparison() const;
   std::string beyond_the_square() const;
   std::string made_of() const;
+  void add_soft_ends(ExtractSummary& summary) const;
   void collect();
   /// Young's moduli of the events of a block, and what is said about them.
   struct Moduli {

@@ -16,6 +16,13 @@ inline constexpr double max_reynolds_number = 3;
 /// (docs/theory-extract.md, sec. "Own tables").
 inline constexpr double modulus_per_reynolds = 0.007;
 
+/// Red cells rest in a long shape, and are small: a disc of 8 um has 50 um2. Other cells are as long where they are
+/// soft.
+inline constexpr double min_inertia_ratio_of_red_cells = 2, max_area_of_red_cells_um2 = 60;
+inline bool is_red_cell(double inertia_ratio, double area_um2) {
+  return inertia_ratio > min_inertia_ratio_of_red_cells && area_um2 < max_area_of_red_cells_um2;
+}
+
 /// Water has 0.28 where it boils.
 inline constexpr double min_viscosity_mPas = 0.2;
 

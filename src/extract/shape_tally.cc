@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "extract/plausibility.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
@@ -36,7 +37,55 @@ Trend trend_of(std::span<const double> x, std::span<const double> y, double leng
   return {slope * length, std::sqrt(rest / xx) * length, middle};
 }
 
+/// Where a modulus lies that is not known.
+enum class Side { none, softer, stiffer, anywhere };
+Side side_of(ModulusState state) {
+  switch (state) {
+    case ModulusState::too_soft:
+    case ModulusState::unstable: return Side::softer;
+    case ModulusState::too_stiff:
+    case ModulusState::unresolved: return Side::stiffer;
+    case ModulusState::too_round:
+    case ModulusState::too_elongated: return Side::anywhere;
+    default: return Side::none;  // no event, or none of the table's sizes
+  }
+}
+
 }  // namespace
+
+void SidedModuli::take(ModulusState state, double modulus_kPa) {
+  if (has_modulus(state) && std::isfinite(modulus_kPa)) known_.push_back(modulus_kPa);
+  const Side side = side_of(state);
+  beside_.below += side == Side::softer ? 1 : 0;
+  beside_.above += side == Side::stiffer ? 1 : 0;
+  beside_.anywhere += side == Side::anywhere ? 1 : 0;
+}
+
+JudgedModulus SidedModuli::judged() const {
+  std::vector<double> logs;
+  for (const double kPa : known_) logs.push_back(std::log(kPa));
+  return {.median_kPa = censored_median(known_, beside_), .log_maxima = density_maxima(logs)};
+}
+
+void ShapeTally::take_moduli(const JudgedEvents& e, std::size_t i) {
+  if (!e.states.empty()) {
+    by_deformation_.take(e.states[i], e.modulus_kPa[i]);
+    if (side_of(e.states[i]) == Side::softer) softer_areas_.push_back(e.area_um2[i]);
+  }
+  if (e.elongated_states.empty()) return;
+  by_elongation_.take(e.elongated_states[i], e.elongation.modulus_kPa[i]);
+  if (side_of(e.elongated_states[i]) == Side::softer) softer_cells_.push_back(e.cells[i]);
+}
+
+SofterCells ShapeTally::softer() const {
+  SofterCells softer{.area_um2 = quantile(softer_areas_, 0.5)};
+  for (int k = 0; k < softer.elongated.size(); ++k) {
+    std::vector<double> along;
+    for (const ElongatedCell& cell : softer_cells_) along.push_back(cell(k));
+    softer.elongated(k) = quantile(along, 0.5);
+  }
+  return softer;
+}
 
 void ShapeTally::take(const JudgedEvents& e) {
   const auto at = [](std::span<const double> values, std::size_t i) {
@@ -44,11 +93,12 @@ void ShapeTally::take(const JudgedEvents& e) {
   };
   for (std::size_t i = 0; i < e.excess.size(); ++i) {
     const ShapeExcess& excess = e.excess[i];
-    if (!std::isfinite(excess.excess)) continue;
-    if (e.inertia_ratio[i] > max_inertia_ratio_of_cells) {
-      ++red_cells_;
+    if (is_red_cell(e.inertia_ratio[i], e.area_um2.empty() ? no_value : e.area_um2[i])) {
+      red_cells_ += std::isfinite(excess.excess) ? 1 : 0;
       continue;
     }
+    take_moduli(e, i);
+    if (!std::isfinite(excess.excess)) continue;
     const ElongationBlock& drawn = e.elongation;
     if (!drawn.modulus_kPa.empty() && std::isfinite(drawn.modulus_kPa[i]))
       drawn_.push_back({drawn.modulus_kPa[i], static_cast<float>(e.modulus_kPa[i] / drawn.modulus_kPa[i]),
@@ -95,6 +145,9 @@ ShapeVerdict ShapeTally::verdict() const {
   v.inertia_ratio = median(&Event::inertia_ratio);
   v.expected_inertia_ratio = median(&Event::expected);
   v.odd_fraction = median(&Event::odd_fraction);
+  v.asymmetry = median(&Event::mode_3);
+  v.by_deformation = by_deformation_.judged();
+  v.by_elongation = by_elongation_.judged();
   const auto x = column(&Event::x);
   auto places = x;
   std::erase_if(places, [](double place) { return !std::isfinite(place); });

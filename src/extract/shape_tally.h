@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "extract/shape_verdict.h"
+#include "infer/modulus_state.h"
 #include "infer/shape_excess.h"
+#include "numeric/censored_median.h"
 #include "shape/outline_tilt.h"
 
 namespace rheocyte {
@@ -20,6 +22,27 @@ struct JudgedEvents {
   std::span<const double> mode_4_excess = {}, mode_5_excess = {};
   std::span<const double> mode_4 = {}, y_um = {};
   std::span<const OutlineTilt> tilt = {};
+  /// Of the moduli from area and deformation, and of elongated cells, which lie there in their table.
+  std::span<const ModulusState> states = {}, elongated_states = {};
+  std::span<const ElongatedCell> cells = {};
+};
+
+/// Medians of the events that are softer than the table: their area as measured, and their place beyond the table of
+/// elongated cells; NaN without such events.
+struct SofterCells {
+  double area_um2 = no_value;
+  ElongatedCell elongated = ElongatedCell::Constant(no_value);
+};
+
+/// Moduli that are known, and on which side the others lie.
+class SidedModuli {
+ public:
+  void take(ModulusState state, double modulus_kPa);
+  JudgedModulus judged() const;
+
+ private:
+  std::vector<double> known_;
+  CensoredCounts beside_;
 };
 
 /// The events that were judged, one value each, as measured.
@@ -27,7 +50,7 @@ struct JudgedShapes {
   std::vector<double> inertia_ratio, area_um2, deformation;
 };
 
-/// Takes block by block; keeps 64 bytes per event.
+/// Takes block by block; keeps 80 bytes per event.
 class ShapeTally {
  public:
   void take(const JudgedEvents& events);
@@ -35,6 +58,7 @@ class ShapeTally {
   ShapeVerdict verdict() const;
   BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
   JudgedShapes judged() const;
+  SofterCells softer() const;
 
  private:
   struct Event {
@@ -50,6 +74,10 @@ class ShapeTally {
   std::vector<double> drawn(float Drawn::*member) const;
   std::vector<Drawn> drawn_;
   std::size_t elongated_ = 0, red_cells_ = 0;
+  void take_moduli(const JudgedEvents& events, std::size_t event);
+  SidedModuli by_deformation_, by_elongation_;
+  std::vector<double> softer_areas_;
+  std::vector<ElongatedCell> softer_cells_;
 };
 
 }  // namespace rheocyte

@@ -9,6 +9,8 @@
 #include "extract/beside_axis.h"
 #include "extract/distribution.h"
 #include "extract/elongation_columns.h"
+#include "numeric/censored_median.h"
+#include "numeric/density_maxima.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
@@ -56,11 +58,26 @@ struct FittingTable {
   }
 };
 
+/// One of the moduli that a recording can report: from area and deformation, or of elongated cells.
+struct JudgedModulus {
+  CensoredMedian median_kPa;          ///< of all events, red cells and sizes outside the table apart
+  double soft_end_kPa = no_value;     ///< of the softest cell of the table that has the size of those that are softer
+  double common_error = no_value;     ///< of the median, relative (common_errors.h)
+  double least_error_kPa = no_value;  ///< of the median, by the errors of the events alone
+  DensityMaxima log_maxima;           ///< of ln(E / kPa) of the events that have one
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.median_kPa, s.soft_end_kPa, s.common_error, s.least_error_kPa, s.log_maxima);
+  }
+};
+
 /// Of the events of one recording inside the gates.
 struct ShapeVerdict {
   std::size_t judged = 0;          ///< events with area, deformation and inertia ratio, red cells apart
   std::size_t elongated = 0;       ///< of these, flagged
-  std::size_t red_cells = 0;       ///< inertia ratio above 2
+  std::size_t red_cells = 0;       ///< as is_red_cell (plausibility.h) says
   std::string missing;             ///< what the recording lacks, in a sentence; empty if nothing
   std::string inertia_ratio_from;  ///< the stored feature or "contour", "mask"; empty if there is none
   std::string model;               ///< the cells of the table, as in cells_in_words; empty if unknown
@@ -71,14 +88,15 @@ struct ShapeVerdict {
   double seen_um = 0;  ///< along the channel, 5 % to 95 % of the events; NaN without pos_x
   Trend inertia_ratio_trend, deformation_trend, asymmetry_trend;
   Trend mode_4_trend;
-  int direction = 0;          ///< in which the cells move: along +x or -x; 0 if that is unknown
-  Median by_deformation_kPa;  ///< Young's modulus from area and deformation
-  std::size_t with_deformation = 0, too_stiff = 0, too_soft = 0;  ///< events with it, and those that the table lacks
+  int direction = 0;             ///< in which the cells move: along +x or -x; 0 if that is unknown
+  JudgedModulus by_deformation;  ///< Young's modulus from area and deformation
+  bool has_elongated_table = false;
   ElongatedBy elongated_by = ElongatedBy::modes;
-  Distribution elongated_kPa;                ///< Young's moduli by the table of elongated cells
-  double elongated_common_error = no_value;  ///< of their median, relative (common_errors.h)
-  std::size_t with_elongation = 0;           ///< events that have one
-  double modulus_ratio = 0;                  ///< median of E from deformation / that; NaN if unknown
+  JudgedModulus by_elongation;      ///< Young's modulus by the table of elongated cells
+  Distribution elongated_kPa;       ///< of the events that have one
+  std::size_t with_elongation = 0;  ///< their number
+  double modulus_ratio = 0;         ///< median of E from deformation / that; NaN if unknown
+  double asymmetry = no_value;      ///< median of c_3
   Median elongation, axial_tension_Pa;
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
@@ -89,9 +107,9 @@ struct ShapeVerdict {
     return std::tie(s.judged, s.elongated, s.red_cells, s.missing, s.inertia_ratio_from, s.model, s.made_of, s.other,
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_fraction, s.seen_um,
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
-                    s.by_deformation_kPa, s.with_deformation, s.too_stiff, s.too_soft, s.elongated_by, s.elongated_kPa,
-                    s.elongated_common_error, s.with_elongation, s.modulus_ratio, s.elongation, s.axial_tension_Pa,
-                    s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
+                    s.with_elongation, s.modulus_ratio, s.asymmetry, s.elongation, s.axial_tension_Pa, s.cortex_mode_4,
+                    s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -102,29 +120,13 @@ struct ShapeVerdict {
   std::string text() const;
   /// Whether the outlines have the flat rear and the straight flanks of cells with a cortex, which no solid has.
   bool has_cortex_shapes() const;
-  /// Whether so many more events lack a modulus from area and deformation at one end of the table than at the other
-  /// that the median of the rest is not that of all.
-  bool is_cut_off() const;
-  /// Whether the outlines tell another modulus than area and deformation, beyond the errors of both.
-  bool is_contradicted() const;
-  /// Whether the outlines give nearly all events a modulus that is to be believed.
-  bool is_told_by_outlines() const;
-  /// Whether the shapes change along the channel as those of cells that creep, by so much that they tell no modulus.
+  /// Whether the shapes change along the channel as those of cells that creep, by so much that no modulus follows.
   bool is_creeping() const;
-  /// Which number is to be reported, and why; nothing without one.
-  enum class Modulus { none, by_deformation, elongated };
-  Modulus recommended() const;
-  Median recommended_kPa() const;
-  std::string recommended_text() const;
   /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells
   /// that approach the axis explain it.
   std::string trend_text() const;
 };
 
-/// For the terminal: the sentence, the trend, both moduli, and how many red cells there are; nothing if nothing is
-/// known.
-std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
-
-inline constexpr double max_inertia_ratio_of_cells = 2;  ///< red cells rest in a longer shape
+inline constexpr std::size_t fewest_for_a_verdict = 5;  ///< events
 
 }  // namespace rheocyte

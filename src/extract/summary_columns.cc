@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "extract/recommendation.h"
+
 namespace rheocyte {
 
 namespace {
@@ -56,17 +58,30 @@ Columns of_modulus() {
           {"young_modulus_standard_error_median_kPa", &S::median_standard_error_kPa}};
 }
 
+/// A number or a text of the recommended modulus.
+std::function<CellValue(const S&)> of_recommendation(auto value) {
+  return [value](const S& s) -> CellValue { return std::invoke(value, recommendation(s.shapes)); };
+}
+
+Columns of_recommended_modulus() {
+  using R = Recommendation;
+  constexpr std::array ways{"none", "deformation", "elongated"};
+  return {
+      {"recommended_modulus", of_recommendation([=](const R& r) { return ways.at(static_cast<std::size_t>(r.way)); })},
+      {"recommended_young_modulus_median_kPa", of_recommendation([](const R& r) { return r.kPa.value; })},
+      {"recommended_young_modulus_median_error_kPa", of_recommendation([](const R& r) { return r.kPa.error; })},
+      {"recommended_young_modulus_common_error_kPa", of_recommendation([](const R& r) { return r.kPa.common_error; })},
+      {"recommended_reason", of_recommendation([](const R& r) { return std::string(code_of(r.reason)); })},
+      {"recommended_bound", of_recommendation([](const R& r) { return std::string(r.bound()); })},
+      {"recommended_bound_kPa", of_recommendation([](const R& r) { return r.bound_kPa; })},
+      {"recommended_share_percent", of_recommendation([](const R& r) { return 100 * r.events.share(); })},
+      {"recommended_text",
+       [](const S& s) -> CellValue { return recommendation_text(recommendation(s.shapes), s.shapes); }}};
+}
+
 Columns of_elongation() {
   using V = ShapeVerdict;
-  constexpr std::array recommended{"none", "deformation", "elongated"};
   return {
-      {"recommended_modulus",
-       of_shapes([=](const V& v) { return recommended.at(static_cast<std::size_t>(v.recommended())); })},
-      {"recommended_young_modulus_median_kPa", of_shapes([](const V& v) { return v.recommended_kPa().value; })},
-      {"recommended_young_modulus_median_error_kPa", of_shapes([](const V& v) { return v.recommended_kPa().error; })},
-      {"recommended_young_modulus_common_error_kPa",
-       of_shapes([](const V& v) { return v.recommended_kPa().common_error; })},
-      {"recommended_text", of_shapes(&V::recommended_text)},
       {"young_modulus_elongated_median_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median; })},
       {"young_modulus_elongated_median_error_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median_error; })},
       {"young_modulus_elongated_first_quartile_kPa",
@@ -157,7 +172,8 @@ std::string summary_text(const RowColumn<ExtractSummary>& column, const ExtractS
 const Columns& summary_columns() {
   static const Columns columns = [] {
     Columns all;
-    for (const auto& part : {counts(), of_modulus(), of_elongation(), of_verdict(), of_places(), of_settings()})
+    for (const auto& part :
+         {counts(), of_recommended_modulus(), of_modulus(), of_elongation(), of_verdict(), of_places(), of_settings()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

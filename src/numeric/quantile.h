@@ -102,11 +102,15 @@ double robust_deviation(const CountedSample<Number>& sample) {
   return (sample.quantile(0.75) - sample.quantile(0.25)) / (2 * per_quartile);
 }
 
-/// Standard error of the median, from that: sqrt(pi / 2) times the one of a mean. NaN of a single number.
+/// Quartiles of fewer numbers do not determine their scatter.
+inline constexpr std::size_t min_count_of_scatter = 5;
+
+/// Standard error of the median, from that: sqrt(pi / 2) times the one of a mean. NaN of fewer than five numbers.
 template <class Number>
 double error_of_median(const CountedSample<Number>& sample) {
-  return sample.count() > 1 ? 1.25 * robust_deviation(sample) / std::sqrt(static_cast<double>(sample.count()))
-                            : no_value;
+  return sample.count() >= min_count_of_scatter
+             ? 1.25 * robust_deviation(sample) / std::sqrt(static_cast<double>(sample.count()))
+             : no_value;
 }
 
 /// The middle one, of an even number the upper one of the two. NaN of none.

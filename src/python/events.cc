@@ -8,6 +8,7 @@
 
 #include "extract/event_pass.h"
 #include "extract/extraction.h"
+#include "extract/shape_words.h"
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"

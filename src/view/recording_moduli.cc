@@ -5,6 +5,7 @@
 #include <set>
 
 #include "extract/companion_origin.h"
+#include "extract/shape_words.h"
 #include "extract/summary_columns.h"
 #include "store/file_writer.h"
 

@@ -104,14 +104,14 @@ TEST_F(Extract, RedCellsDoNotTellInWhichDirectionTheOthersMove) {
         return std::pair{r * std::cos(t), r * std::sin(t)};
       }));
       writer.contour(closed([](double t) {
-        return std::pair{27 * std::cos(t), 9 * std::sin(t) * (1 - 0.4 * std::cos(t))};
+        return std::pair{21 * std::cos(t), 7 * std::sin(t) * (1 - 0.4 * std::cos(t))};
       }));
     }
   }
   const auto ended = test::run({{RHEOCYTE, "extract", path("v.rtdc")}});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_NE(ended.out.find("E by the outlines of 10 events"), std::string::npos) << ended.out;
-  EXPECT_NE(ended.out.find("10 events have inertia ratios above 2"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("10 events are as small and long as red cells"), std::string::npos) << ended.out;
 }
 
 TEST_F(Extract, ABadRecordingDoesNotKeepTheOthersBack) {

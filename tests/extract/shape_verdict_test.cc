@@ -5,7 +5,10 @@
 #include <random>
 #include <vector>
 
+#include "extract/common_errors.h"
+#include "extract/recommendation.h"
 #include "extract/shape_tally.h"
+#include "extract/shape_words.h"
 
 namespace rheocyte::shape_verdict_test {
 namespace {
@@ -33,7 +36,7 @@ TEST(ShapeVerdict, CellsRounderThanTheTablesAreNotThoseOfTheModel) {
   v.model = "linear solids in the tube";
   EXPECT_EQ(v.fit(), ShapeVerdict::Fit::rounder);
   EXPECT_NE(v.text().find("rounder than linear solids in the tube and than"), std::string::npos) << v.text();
-  EXPECT_NE(v.recommended(), ShapeVerdict::Modulus::by_deformation);
+  EXPECT_NE(recommendation(v).way, RecommendedWay::deformation);
   v.other = {"HE-3D-26", "neo-Hookean solids in the square channel", {0.002, 0.001}, 1.02, 0.95};
   EXPECT_EQ(v.fit(), ShapeVerdict::Fit::other_table);
   EXPECT_NE(v.text().find("5.0 % too low, take the table HE-3D-26"), std::string::npos) << v.text();
@@ -72,141 +75,183 @@ TEST(ShapeVerdict, CellsOfAnotherTableAreNotAccused) {
   EXPECT_EQ(v.fit(), ShapeVerdict::Fit::model) << "the table that is used comes first";
 }
 
-/// Thirty cells with moduli as of elongated ones, whose c_4 and c_5 are beyond those of solids by so much.
+/// Sixty cells with moduli as of elongated ones, whose c_4 and c_5 are beyond those of solids by so much.
 ShapeVerdict elongated_verdict(double mode_4, double mode_5, double excess = 0.2) {
-  const std::vector<ShapeExcess> excesses(30, {1, excess, 0.01, 0.3});
-  const std::vector<double> ratio(30, 1 + excess), deformation(30, 0.02), modulus(30, 1), elongated(30, 2.5),
-      error(30, 0.1), elongation(30, 1.2), tension(30, 250), fourth(30, mode_4), fifth(30, mode_5);
+  constexpr std::size_t count = 60;
+  const std::vector<ShapeExcess> excesses(count, {1, excess, 0.01, 0.3});
+  const std::vector<double> ratio(count, 1 + excess), deformation(count, 0.02), area(count, 100), modulus(count, 1),
+      elongated(count, 2.5), error(count, 0.1), elongation(count, 1.2), tension(count, 250), third(count, 0.05),
+      fourth(count, mode_4), fifth(count, mode_5);
+  const std::vector<ModulusState> states(count, ModulusState::valid);
   ShapeTally tally;
   tally.take({.excess = excesses,
               .inertia_ratio = ratio,
-              .area_um2 = {},
+              .area_um2 = area,
               .deformation = deformation,
-              .mode_3 = {},
+              .mode_3 = third,
               .x_um = {},
               .modulus_kPa = modulus,
               .elongation = {elongated, error, elongation, error, tension, error},
               .mode_4_excess = fourth,
-              .mode_5_excess = fifth});
+              .mode_5_excess = fifth,
+              .states = states,
+              .elongated_states = states,
+              .cells = {}});
   ShapeVerdict verdict = tally.verdict();
-  verdict.by_deformation_kPa = {1, 0.01, 0.03};
-  verdict.elongated_common_error = 0.02;
+  verdict.has_elongated_table = true;
+  verdict.by_deformation.common_error = 0.03;
+  verdict.by_elongation.common_error = 0.02;
   return verdict;
 }
 
-TEST(ShapeVerdict, CellsOfAnotherTableHaveAModulusAndNoTension) {
+/// Of so many events with scattered moduli about a value, and others beside them.
+CensoredMedian median_of_events(int events, double about, CensoredCounts beside = {}) {
+  std::vector<double> moduli;
+  for (int i = 0; i < events; ++i) moduli.push_back(about * (1 + 0.25 * std::sin(2.4 * i)));
+  return censored_median(moduli, beside);
+}
+
+std::string text_of(const ShapeVerdict& v) { return recommendation_text(recommendation(v), v); }
+
+TEST(Recommendation, CellsOfAnotherTableHaveAModulusAndNoTension) {
   ShapeVerdict v = elongated_verdict(0.002, -0.003);
   v.other = {"LE-2D-26", "linear solids in the tube", {0.002, 0.001}, 1.04, 1.048};
   ASSERT_EQ(v.fit(), ShapeVerdict::Fit::other_table);
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
-  EXPECT_GT(v.recommended_kPa().common_error, 0.027 * 2.5);
-  const std::string text = v.recommended_text();
-  EXPECT_NE(text.find("but linear solids in the tube"), std::string::npos) << text;
-  EXPECT_EQ(text.find("tension"), std::string::npos) << text;
+  const Recommendation r = recommendation(v);
+  EXPECT_EQ(r.way, RecommendedWay::elongated);
+  EXPECT_EQ(code_of(r.reason), "other-table");
+  EXPECT_GT(r.kPa.common_error, 0.027 * 2.5);
+  EXPECT_NE(text_of(v).find("the cells are linear solids in the tube"), std::string::npos) << text_of(v);
+  EXPECT_EQ(text_of(v).find("tension"), std::string::npos) << text_of(v);
 }
 
-TEST(ShapeVerdict, ElongationAndTensionAreToldWithBothErrorsAsTheModulusIs) {
+TEST(ShapeVerdict, ElongationAndTensionAreReportedWithBothErrorsAsTheModulusIs) {
   ShapeVerdict v = elongated_verdict(0.002, -0.003);
   v.elongation.common_error = 0.005;
   v.axial_tension_Pa.common_error = 10;
-  const std::string told = shape_lines(v).at(2);
-  EXPECT_NE(told.find("elongation 1.2 +- 0 +- 0.005, axial tension 250 +- 0 +- 10 Pa"), std::string::npos) << told;
-  EXPECT_NE(v.recommended_text().find("a tension of 250 +- 0 +- 10 Pa along the flow"), std::string::npos);
+  const std::string line = shape_lines(v).at(2);
+  EXPECT_NE(line.find("elongation 1.2 +- 0 +- 0.005, axial tension 250 +- 0 +- 10 Pa"), std::string::npos) << line;
+  EXPECT_NE(text_of(v).find("An axial tension of 250 +- 0 +- 10 Pa"), std::string::npos) << text_of(v);
 }
 
-TEST(ShapeVerdict, TheModulusOfElongatedCellsIsToldAndRecommended) {
+TEST(Recommendation, ElongatedCellsHaveTheModulusOfTheirTableAndBothCausesAreNamed) {
   const ShapeVerdict v = elongated_verdict(0.002, -0.003);
   EXPECT_NEAR(v.modulus_ratio, 0.4, 1e-6);  // kept in single precision
-  EXPECT_EQ(v.with_elongation, 30u);
+  EXPECT_EQ(v.with_elongation, 60u);
   EXPECT_NEAR(v.axial_tension_Pa.value, 250, 1e-3);
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
+  const Recommendation r = recommendation(v);
+  EXPECT_EQ(r.way, RecommendedWay::elongated);
+  EXPECT_EQ(r.reason, RecommendationReason::elongated);
+  EXPECT_EQ(r.kPa.value, 2.5);
+  EXPECT_GE(r.kPa.common_error, error_of_height * 2.5) << "what 1 um off the axis in height does";
   const auto lines = shape_lines(v);
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(lines.back().find("report E = 2.5 +- 0 +- 0.05 kPa (median"), std::string::npos) << lines.back();
-  EXPECT_NE(lines.back().find("a tension of 250 +- 0 Pa"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("report E = 2.5 +- 0 +- 0.16 kPa (median"), std::string::npos) << lines.back();
+  EXPECT_NE(lines.back().find("tension of 250 +- 0 Pa explains it; so do cells off the axis in height"),
+            std::string::npos)
+      << lines.back();
 }
 
-TEST(ShapeVerdict, MoreEventsMakeTheErrorByScatterSmallerAndNotWhatTheyHaveInCommon) {
+TEST(Recommendation, MoreEventsMakeTheErrorByScatterSmallerAndNotWhatTheyHaveInCommon) {
   const auto recommended = [](int events) {
-    std::vector<double> moduli;
-    for (int i = 0; i < events; ++i) moduli.push_back(2 + 0.5 * std::sin(2.4 * i));
     ShapeVerdict v = elongated_verdict(0, 0);
-    v.elongated_kPa = distribution_of(moduli);
-    return v.recommended_kPa();
+    v.by_elongation.median_kPa = median_of_events(events, 2);
+    return recommendation(v).kPa;
   };
   const Median few = recommended(100), many = recommended(10000);
   // Quartiles of sin lie at +-0.7071.
   EXPECT_NEAR(many.error, 1.25 * 0.5 * 0.7071 / 0.6745 / 100, 1e-4);
   EXPECT_NEAR(few.error / many.error, 10, 0.5);
-  EXPECT_NEAR(many.common_error, 0.02 * 2, 1e-3);
   EXPECT_NEAR(few.common_error, many.common_error, 1e-2);
 }
 
-TEST(ShapeVerdict, CellsOfTheModelAreReportedByTheirDeformation) {
+TEST(Recommendation, OutlinesComeFirstWhereTheyGiveNearlyAllEventsAModulus) {
   ShapeVerdict v = elongated_verdict(0, 0, 0.005);
-  v.elongated_kPa.median = 1.04;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation);
-  EXPECT_NE(v.recommended_text().find("report E = 1 +- 0.01 +- 0.03 kPa"), std::string::npos) << v.recommended_text();
-  ShapeVerdict without = v;  // as by a published table, whose errors nobody knows
-  without.by_deformation_kPa.common_error = std::nan("");
-  EXPECT_NE(
-      without.recommended_text().find("report E = 1 +- 0.01 kPa (median, from area and deformation; the error is"),
-      std::string::npos)
-      << without.recommended_text();
+  Recommendation r = recommendation(v);
+  EXPECT_EQ(code_of(r.reason), "outlines");
+  EXPECT_NEAR(r.kPa.common_error, 0.02 * 2.5, 1e-9);
+  EXPECT_NE(text_of(v).find("area and deformation give 1 kPa, 60 % less"), std::string::npos) << text_of(v);
+  v.by_elongation.median_kPa.value = 1.04;
+  EXPECT_EQ(text_of(v).find("area and deformation give"), std::string::npos) << "within the errors: " << text_of(v);
+  v.by_elongation.median_kPa = median_of_events(50, 2.5, {.above = 10});
+  r = recommendation(v);
+  EXPECT_EQ(r.way, RecommendedWay::deformation) << "83 % of the events have a modulus from the outlines, all by d";
+  EXPECT_EQ(r.kPa.value, 1);
+  EXPECT_NEAR(r.kPa.common_error, 0.03, 1e-9);
+  v.by_deformation.median_kPa = median_of_events(45, 1, {.above = 15});
+  EXPECT_EQ(recommendation(v).way, RecommendedWay::elongated) << "more by the outlines than by d";
 }
 
-TEST(ShapeVerdict, WhereOutlinesAndDeformationDisagreeTheOutlinesAreBelieved) {
+TEST(Recommendation, WithoutOutlinesTheModulusIsNamedAsThatOfSolids) {
   ShapeVerdict v = elongated_verdict(0, 0, 0.005);
-  v.elongated_kPa.median = 1.2;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
-  EXPECT_NE(v.recommended_text().find("that from area and deformation, 1 +- 0.01 +- 0.03, is 17 % lower"),
-            std::string::npos)
-      << v.recommended_text();
-  v.by_deformation_kPa.common_error = 0.1;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "within three errors";
-  v = elongated_verdict(0, 0, 0.005);
-  v.with_elongation = 25;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "of 30 events";
-  v = elongated_verdict(0, 0, 0.005);
   v.elongated_by = ElongatedBy::inertia;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "which is told by the deformation, too";
+  EXPECT_EQ(recommendation(v).way, RecommendedWay::deformation) << "of which the inertia ratio is no other witness";
+  EXPECT_NE(text_of(v).find("modulus of homogeneous solids"), std::string::npos) << text_of(v);
+  v = elongated_verdict(0, 0);
+  v.elongated_by = ElongatedBy::inertia;
+  EXPECT_GE(recommendation(v).kPa.common_error, 0.35 * 2.5) << "elongated cells have a cortex";
+  EXPECT_NE(text_of(v).find("modulus of homogeneous solids"), std::string::npos) << text_of(v);
 }
 
-TEST(ShapeVerdict, AMedianOfCellsWithoutTheirStiffOrSoftOnesIsNotRecommended) {
-  ShapeVerdict v = elongated_verdict(0, 0, 0.005);
-  v.elongated_kPa.median = 1;
-  v.with_deformation = 20;
-  v.too_stiff = 10;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
-  EXPECT_NE(v.recommended_text().find("10 of 30 events are too stiff for a modulus from area and deformation, whose "
-                                      "median would be that of the softer ones."),
-            std::string::npos)
-      << v.recommended_text();
-  v.with_elongation = 20;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
-  EXPECT_NE(v.recommended_text().find("`rheocyte population` takes all"), std::string::npos) << v.recommended_text();
-  v.too_soft = 10;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::by_deformation) << "as many at both ends: the median stays";
-  v.too_stiff = 0;
-  EXPECT_NE(v.recommended_text().find("10 of 30 events are too soft for"), std::string::npos) << v.recommended_text();
+TEST(Recommendation, EventsBeyondTheTableCountOnTheirSide) {
+  for (const double excess : {0.005, 0.2}) {  // by deformation, by the table of elongated cells
+    ShapeVerdict v = elongated_verdict(0, 0, excess);
+    v.elongated_by = ElongatedBy::inertia;
+    JudgedModulus& judged = excess < 0.1 ? v.by_deformation : v.by_elongation;
+    judged.median_kPa = median_of_events(200, 1, {.below = 150});
+    Recommendation r = recommendation(v);
+    EXPECT_LT(r.kPa.value, median_of_events(200, 1).value - 3 * r.kPa.error) << "the median of all, not of the rest";
+    EXPECT_NE(text_of(v).find("57.1 % of 350 events have a modulus, 42.9 % softer than the table"), std::string::npos)
+        << text_of(v);
+    judged.median_kPa = median_of_events(63, 1, {.below = 2084});
+    judged.soft_end_kPa = 0.7;
+    r = recommendation(v);
+    EXPECT_EQ(r.way, RecommendedWay::none);
+    EXPECT_TRUE(std::isnan(r.kPa.value));
+    EXPECT_EQ(code_of(r.reason), "beyond-table");
+    EXPECT_EQ(r.bound(), "softer");
+    EXPECT_EQ(r.bound_kPa, 0.7);
+    EXPECT_NE(text_of(v).find("softer than 0.7 kPa (2.9 % of 2147 events have a modulus"), std::string::npos)
+        << text_of(v);
+    judged.median_kPa = median_of_events(58, 2.2, {.above = 79});
+    r = recommendation(v);
+    EXPECT_EQ(r.bound(), "stiffer");
+    judged.median_kPa = median_of_events(40, 2.2, {.below = 30, .above = 30});
+    EXPECT_EQ(recommendation(v).way, RecommendedWay::none) << "40 % of the events";
+  }
 }
 
-TEST(ShapeVerdict, CellsThatCreepHaveNoModulusHere) {
+TEST(Recommendation, FewEventsHaveNone) {
+  ShapeVerdict v = elongated_verdict(0, 0);
+  v.by_elongation.median_kPa = median_of_events(19, 2);
+  EXPECT_EQ(code_of(recommendation(v).reason), "too-few-events");
+  EXPECT_NE(text_of(v).find("19 events are too few for a median (minimum 20)"), std::string::npos) << text_of(v);
+  v.by_elongation.median_kPa = median_of_events(20, 2);
+  EXPECT_EQ(recommendation(v).way, RecommendedWay::elongated);
+}
+
+TEST(Recommendation, CellsThatCreepHaveNone) {
   ShapeVerdict v = elongated_verdict(0, 0);
   v.direction = 1;
   v.asymmetry_trend = {.change = 0.03, .error = 0.001, .median = 0.05};
   v.mode_4_trend = {.change = 0, .error = 0.001, .median = 0};
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
-  EXPECT_NE(v.recommended_text().find("`rheocyte time-course`"), std::string::npos) << v.recommended_text();
+  EXPECT_EQ(code_of(recommendation(v).reason), "creeping");
+  EXPECT_NE(text_of(v).find("`rheocyte time-course`"), std::string::npos) << text_of(v);
   v.asymmetry_trend.change = 0.008;
-  EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::elongated);
+  EXPECT_EQ(recommendation(v).way, RecommendedWay::elongated);
 }
 
-TEST(ShapeVerdict, OutlinesOfCellsWithACortexHaveNoModulusOfASolid) {
-  for (const ShapeVerdict& v : {elongated_verdict(-0.025, 0), elongated_verdict(0, 0.02)}) {
-    EXPECT_EQ(v.recommended(), ShapeVerdict::Modulus::none);
-    EXPECT_NE(v.recommended_text().find("use `rheocyte moduli`"), std::string::npos) << v.recommended_text();
+TEST(Recommendation, OutlinesOfCellsWithACortexHaveNone) {
+  // The second: cells of 1.5 kPa and 19 mN/m, far below 0.01. The limit grows with the asymmetry.
+  for (const ShapeVerdict& v :
+       {elongated_verdict(-0.025, 0), elongated_verdict(-0.005, 0.003), elongated_verdict(0, 0.02)}) {
+    EXPECT_EQ(code_of(recommendation(v).reason), "cortex");
+    EXPECT_NE(text_of(v).find("use `rheocyte moduli`"), std::string::npos) << text_of(v);
   }
+  ShapeVerdict longer = elongated_verdict(-0.005, 0.003);
+  longer.asymmetry = 0.15;
+  EXPECT_EQ(recommendation(longer).way, RecommendedWay::elongated);
+  EXPECT_EQ(recommendation(elongated_verdict(0.007, -0.002)).way, RecommendedWay::elongated) << "as linear solids";
 }
 
 TEST(ShapeVerdict, TheErrorOfTheMedianIsThatOfItsRobustScatter) {
@@ -279,16 +324,17 @@ TEST(ShapeVerdict, WithoutPlacesOrAtOnePlaceThereIsNoTrend) {
 }
 
 TEST(ShapeVerdict, RedCellsCountApart) {
-  const std::vector<ShapeExcess> excesses{{1, 1.9, 0.01, 0.1}, {1, 0.001, 0.01, 0.1}, {1, NAN, 0.01, 0.1}};
-  const std::vector<double> ratio{2.9, 1.001, NAN}, deformation{0.2, 0.01, 0.01};
+  // The last one is as long as a red cell, but larger: a soft cell.
+  const std::vector<ShapeExcess> excesses{
+      {1, 1.9, 0.01, 0.1}, {1, 0.001, 0.01, 0.1}, {1, NAN, 0.01, 0.1}, {1, 1.2, 0.01, 0.1}};
+  const std::vector<double> ratio{2.9, 1.001, NAN, 2.2}, deformation{0.2, 0.01, 0.01, 0.16}, area{40, 60, 60, 120};
   ShapeTally tally;
-  tally.take({excesses, ratio, {}, deformation, {}, {}, {}, {}, {}});
+  tally.take({excesses, ratio, area, deformation, {}, {}, {}, {}, {}});
   const ShapeVerdict v = tally.verdict();
   EXPECT_EQ(v.red_cells, 1u);
-  EXPECT_EQ(v.judged, 1u);
-  EXPECT_EQ(v.elongated, 0u);
+  EXPECT_EQ(v.judged, 2u);
   ASSERT_FALSE(shape_lines(v).empty());
-  EXPECT_NE(shape_lines(v).back().find("1 event has an inertia ratio above 2"), std::string::npos);
+  EXPECT_NE(shape_lines(v).back().find("1 event is as small and long as red cells"), std::string::npos);
 }
 
 TEST(ShapeVerdict, AFewEventsDecideNothing) {

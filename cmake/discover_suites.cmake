@@ -1,0 +1,21 @@
+# discover_suites(<target> [PREFIX <prefix>] [LABEL <label>] [ONLY <regex>] [EXCEPT <regex>]): one test of ctest for each
+# suite of a program of GoogleTest, so that what its tests share is made once. The suites are listed when the program has
+# been built; ONLY and EXCEPT choose them by their names.
+set(list_suites ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
+function(discover_suites target)
+  cmake_parse_arguments(arg "" "PREFIX;LABEL;ONLY;EXCEPT" "" ${ARGN})
+  set(tests ${CMAKE_CURRENT_BINARY_DIR}/${target}${arg_LABEL}_suites.cmake)
+  add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS ${tests}
+                     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${target}> -D "PREFIX=${arg_PREFIX}"
+                             -D "LABEL=${arg_LABEL}" -D "ONLY=${arg_ONLY}" -D "EXCEPT=${arg_EXCEPT}"
+                             -D FOLDER=${CMAKE_CURRENT_BINARY_DIR} -D TESTS=${tests} -P ${list_suites}
+                     VERBATIM)
+  file(CONFIGURE OUTPUT ${tests}.in CONTENT [[
+if(EXISTS "@tests@")
+  include("@tests@")
+else()
+  add_test(@target@_is_not_built @target@_is_not_built)
+endif()
+]] @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${tests}.in)
+endfunction()

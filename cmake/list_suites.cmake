@@ -1,0 +1,18 @@
+# Writes the tests of discover_suites (discover_suites.cmake), which gives the variables.
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
+# A suite is a line without indentation: its name, a point, and perhaps a remark on its type.
+string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." suites "${listed}")
+set(content "")
+foreach(suite IN LISTS suites)
+  string(REGEX REPLACE "[\n.]" "" suite "${suite}")
+  if((ONLY AND NOT suite MATCHES "${ONLY}") OR (EXCEPT AND suite MATCHES "${EXCEPT}"))
+    continue()
+  endif()
+  string(APPEND content "add_test([=[${PREFIX}${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n")
+  string(APPEND content "set_tests_properties([=[${PREFIX}${suite}]=] PROPERTIES WORKING_DIRECTORY [=[${FOLDER}]=]")
+  if(LABEL)
+    string(APPEND content " LABELS ${LABEL}")
+  endif()
+  string(APPEND content ")\n")
+endforeach()
+file(WRITE ${TESTS} "${content}")
