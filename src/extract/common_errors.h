@@ -10,10 +10,13 @@ namespace rheocyte {
 
 /// Standard deviations, relative to the modulus, of its median in a recording, by pixels, table and the liquid's
 /// inertia; what is wrong with viscosity, flow rate and pixel size comes on top. `of_event` is the standard error of
-/// the median event, of which the law of the pixels leaves up to a quarter in the median (bench/pixel_coverage).
+/// the median event, of which the law of the pixels leaves up to a quarter in the median (bench/pixel_coverage). Masks
+/// differ in which pixels of the edge they contain: a sixteenth of a pixel along rows and columns changes the
+/// deformation by 0.0055 pixels per radius and the modulus by three tenths of that error
+/// (bench/independent_recordings.py).
 inline double common_error_by_deformation(double of_event, double reynolds) {
-  constexpr double fraction_left = 0.25;
-  return std::hypot(fraction_left * of_event, modulus_per_reynolds * reynolds);
+  constexpr double left_by_law = 0.25, of_masks = 0.3;
+  return std::hypot(std::hypot(left_by_law, of_masks) * of_event, modulus_per_reynolds * reynolds);
 }
 
 /// The same of the table of elongated cells: by how much medians of cells are off, half of which were drawn out by a
