@@ -4,13 +4,13 @@ its renderer, its features and its tables.
 
     bench/independent_recordings.py FOLDER [--program build/rheocyte] [--masks coverage centre] [--tilts 1] [--recordings 40]
 
-Each recording has round cells, stiff, middle or soft, or cells drawn out by an axial tension, in a channel of 15 to 40 um, in
-methyl cellulose or a Newtonian liquid. Their outlines are solved in the square channel for nine cells (`rheocyte solve`) and
-interpolated in radius and modulus. Masks contain the pixels whose centre lies inside, those covered by more than half, or those
-of which more than 32 of 8 x 8 samples lie inside: where the edge halves a pixel, these leave it out. The camera is tilted by so
-many degrees. Prints the errors of the recommended modulus, of that from deformation and of that by the outlines for each
-recording, and how many are right within one and two stated errors. Outlines and recordings that are in FOLDER are kept. Needs
-numpy, scipy, h5py and dclab.
+Each recording has round cells, stiff, middle or soft, or cells drawn out by an axial tension (from --first 40 on: cells that
+are long at rest), in a channel of 15 to 40 um, in methyl cellulose or a Newtonian liquid. Their outlines are solved in the
+square channel for nine cells (`rheocyte solve`) and interpolated in radius and modulus. Masks contain the pixels whose centre
+lies inside, those covered by more than half, or those of which more than 32 of 8 x 8 samples lie inside: where the edge halves
+a pixel, these leave it out. The camera is tilted by so many degrees. Prints the errors of the recommended modulus, of that from
+deformation and of that by the outlines for each recording, and how many are right within one and two stated errors. Outlines
+and recordings that are in FOLDER are kept. Needs numpy, scipy, h5py and dclab.
 """
 import argparse
 import csv
@@ -32,7 +32,9 @@ NODES = 2 * np.array([-1.0, 0.0, 1.0])  # spreads of the solved cells from the m
 ANGLES = 16384  # of an outline
 MASKS = ("coverage", "samples", "centre")
 SUBPIXELS = 8  # along each side of a pixel
-DEFORMATIONS = {"stiff": (0.0025, 0.005), "middle": (0.007, 0.015), "soft": (0.02, 0.032), "elongated": (0.006, 0.015)}
+DEFORMATIONS = {"stiff": (0.0025, 0.005), "middle": (0.007, 0.015), "soft": (0.02, 0.032), "elongated": (0.006, 0.015),
+                "resting": (0.006, 0.015)}
+RESTING = 40  # from this recording on
 RATES = {15: 0.02, 20: 0.04, 30: 0.16, 40: 0.32}  # ul/s by width (um)
 EXPONENTS = {"CellCarrier": -0.0056, "CellCarrierB": -0.0744}  # at 0 K (Buyukurganci et al. 2022)
 PER_KELVIN = 0.00223
@@ -51,6 +53,7 @@ class Setup:
     radius_um: float
     deformation: float  # of the median cell without the tension
     axial_ratio: float  # axial tension over Young's modulus
+    rest_aspect: float = 1
 
     @property
     def name(self):
@@ -71,19 +74,20 @@ class Setup:
 
 def setup(number):
     random = np.random.default_rng([69, number])
-    kind = list(DEFORMATIONS)[number % 4]
-    width = (15, 20, 30, 40)[number // 4 % 4]
-    medium = ("CellCarrier", "", "CellCarrierB")[number // 16]
+    kind = list(DEFORMATIONS)[number % 4] if number < RESTING else "resting"
+    width = (15, 20, 30, 40)[(number // 4 if number < RESTING else number) % 4]
+    medium = ("CellCarrier", "", "CellCarrierB")[number // 16 if number < RESTING else number // 4 % 3]
     temperature = random.uniform(22, 25)
     viscosity = random.uniform(5, 15)
     if medium:
         viscosity = float(get_viscosity(medium=medium, channel_width=width, flow_rate=RATES[width], temperature=temperature,
                                         model="buyukurganci-2022"))
     return Setup(number, kind, width, medium, temperature, viscosity, width * random.uniform(0.26, 0.36),
-                 np.exp(random.uniform(*np.log(DEFORMATIONS[kind]))), random.uniform(0.04, 0.2) if kind == "elongated" else 0)
+                 np.exp(random.uniform(*np.log(DEFORMATIONS[kind]))), random.uniform(0.04, 0.2) if kind == "elongated" else 0,
+                 random.uniform(1.06, 1.3) if kind == "resting" else 1)
 
 
-def solve(program, kept, case, radius_um, modulus_kPa, axial_Pa):
+def solve(program, kept, case, radius_um, modulus_kPa, axial_Pa=0):
     """Deformation and outline, as radii at even angles from the nose round the cell (um), about the barycentre."""
     keys = case | {"cell.radius_um": radius_um, "cell.bulk.young_modulus_kPa": modulus_kPa, "flow.axial_tension_Pa": axial_Pa}
     sets = [text for key, value in keys.items() for text in ("--set", f"{key}={json.dumps(value)}")]
@@ -108,9 +112,11 @@ def outlines(program, folder, setup):
     case = setup.liquid()
     modulus = 4.6 * setup.viscosity_mPas * setup.rate_ul_s / (1e-3 * setup.width_um) ** 3 * 1e-3 * 0.4
     for _ in range(4):
-        deformation, _ = solve(program, folder, case, setup.radius_um, modulus, 0)
+        deformation, _ = solve(program, folder, case, setup.radius_um, modulus)
         modulus *= (deformation / setup.deformation) ** 0.5
     axial_Pa = 1e3 * setup.axial_ratio * modulus
+    if setup.rest_aspect != 1:
+        case["cell.rest_aspect"] = setup.rest_aspect
     found = [[solve(program, folder, case, setup.radius_um * np.exp(RADIUS_SPREAD * i), modulus * np.exp(MODULUS_SPREAD * j),
                     axial_Pa)[1] for j in NODES] for i in NODES]
     np.savez(file, modulus=modulus, outlines=found)

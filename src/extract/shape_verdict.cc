@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/common_errors.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
@@ -225,10 +226,9 @@ Median ShapeVerdict::recommended_kPa() const {
     case Modulus::by_deformation: return by_deformation_kPa;
     case Modulus::elongated: break;
   }
-  // Virtual linear solids in tube and square by the table of neo-Hookean ones: 0.2 to 2.7 % high.
-  const double of_another_law = fit() == Fit::other_table ? 0.025 : 0;
+  const double of_shapes = fit() == Fit::model ? 0 : common_error_of_other_shapes;
   return {elongated_kPa.median, elongated_kPa.median_error,
-          std::hypot(elongated_common_error, of_another_law) * elongated_kPa.median};
+          std::hypot(elongated_common_error, of_shapes) * elongated_kPa.median};
 }
 
 namespace {
