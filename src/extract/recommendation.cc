@@ -40,8 +40,7 @@ JudgedWay judged_way_of(const ShapeVerdict& v) {
 /// What all events share, relative.
 double common_error_of(const JudgedWay& choice, const ShapeVerdict& v, const JudgedModulus& judged) {
   double error = judged.common_error;
-  if (!has_model_shapes(v)) error = std::hypot(error, error_of_height);
-  if (choice.reason == Reason::other_table) error = std::hypot(error, error_of_another_law);
+  if (!has_model_shapes(v)) error = std::hypot(error, std::hypot(error_of_height, common_error_of_other_shapes));
   if (choice.reason == Reason::elongated && v.elongated_by == ElongatedBy::inertia)
     error = std::hypot(error, error_of_unseen_cortex);
   return std::hypot(error, judged.median_kPa.half_range / judged.median_kPa.value);
