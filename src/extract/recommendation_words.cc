@@ -91,8 +91,9 @@ std::string number_text(const Recommendation& r, const ShapeVerdict& v) {
           "it; so do cells off the axis in height (by 2 um: E 20 to 25 % too high).{}",
           report, v.excess.value < 0 ? "rounder" : "longer", text_with_errors(v.axial_tension_Pa), solid_text(v));
     default:
-      return report + ". Whether the shapes are those of the model is unknown: it is the modulus of homogeneous solids "
-                      "that nothing but the flow deforms.";
+      return report +
+             ". Whether the shapes are those of the model is unknown: it is the modulus of homogeneous solids "
+             "that nothing but the flow deforms.";
   }
 }
 
