@@ -147,7 +147,7 @@ ExtractSummary Extraction::summary() {
   s.area_from = shapes_.area_from();
   s.deformation_from = shapes_.deformation_from();
   s.conditions = settings_.conditions;
-  s.shapes = shape_tally_.verdict();
+  s.shapes = shape_tally_.verdict(settings_.pixel_size_um);
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
   s.shapes.direction = event_shapes_.direction();
   s.shapes.beside_axis = shape_tally_.beside_axis(s.shapes.direction, settings_.conditions.flow);

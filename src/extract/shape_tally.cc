@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "extract/plausibility.h"
 #include "numeric/no_value.h"
@@ -135,7 +136,7 @@ BesideAxis ShapeTally::beside_axis(int direction, const ChannelFlow& flow) const
   return rheocyte::beside_axis({x, y, sine, flank, area, ratio}, direction, flow);
 }
 
-ShapeVerdict ShapeTally::verdict() const {
+ShapeVerdict ShapeTally::verdict(double pixel_size_um) const {
   ShapeVerdict v;
   v.judged = events_.size();
   v.elongated = elongated_;
@@ -146,6 +147,7 @@ ShapeVerdict ShapeTally::verdict() const {
   v.expected_inertia_ratio = median(&Event::expected);
   v.odd_fraction = median(&Event::odd_fraction);
   v.asymmetry = median(&Event::mode_3);
+  v.radius_px = std::sqrt(median(&Event::area) / std::numbers::pi) / pixel_size_um;
   v.by_deformation = by_deformation_.judged();
   v.by_elongation = by_elongation_.judged();
   const auto x = column(&Event::x);

@@ -55,7 +55,7 @@ class ShapeTally {
  public:
   void take(const JudgedEvents& events);
   /// Of all events taken so far; what the tally does not know (source, direction) is left to the caller.
-  ShapeVerdict verdict() const;
+  ShapeVerdict verdict(double pixel_size_um = no_value) const;
   BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
   JudgedShapes judged() const;
   SofterCells softer() const;

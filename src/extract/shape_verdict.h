@@ -97,6 +97,7 @@ struct ShapeVerdict {
   std::size_t with_elongation = 0;  ///< their number
   double modulus_ratio = 0;         ///< median of E from deformation / that; NaN if unknown
   double asymmetry = no_value;      ///< median of c_3
+  double radius_px = no_value;      ///< of the circle with the median area, where the size of the pixels is known
   Median elongation, axial_tension_Pa;
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
@@ -108,8 +109,8 @@ struct ShapeVerdict {
                     s.excess, s.inertia_ratio, s.expected_inertia_ratio, s.odd_fraction, s.seen_um,
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
                     s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
-                    s.with_elongation, s.modulus_ratio, s.asymmetry, s.elongation, s.axial_tension_Pa, s.cortex_mode_4,
-                    s.cortex_mode_5, s.beside_axis);
+                    s.with_elongation, s.modulus_ratio, s.asymmetry, s.radius_px, s.elongation, s.axial_tension_Pa,
+                    s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;

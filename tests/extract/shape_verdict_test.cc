@@ -248,6 +248,9 @@ TEST(Recommendation, OutlinesOfCellsWithACortexHaveNone) {
     EXPECT_EQ(code_of(recommendation(v).reason), "cortex");
     EXPECT_NE(text_of(v).find("use `rheocyte moduli`"), std::string::npos) << text_of(v);
   }
+  ShapeVerdict coarse = elongated_verdict(-0.0032, 0.0009);  // small solids, with another rule for the edge
+  coarse.radius_px = 14;
+  EXPECT_EQ(recommendation(coarse).way, RecommendedWay::elongated);
   ShapeVerdict longer = elongated_verdict(-0.005, 0.003);
   longer.asymmetry = 0.15;
   EXPECT_EQ(recommendation(longer).way, RecommendedWay::elongated);
