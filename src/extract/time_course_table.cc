@@ -185,6 +185,23 @@ std::string CourseTable::elongation_text(const CourseReport& report) const {
       beyond.value, beyond.error, multiplied.value, multiplied.error);
 }
 
+namespace {
+
+/// Of the cells that the table can describe; of fewer than half of all there is no number.
+std::string population_text(const PopulationEstimate& p, std::size_t cells) {
+  if (2 * p.cells < cells)
+    return fmt::format(
+        "no modulus and viscosity of the population are reported: only {} of {} cells can be cells of the table, and "
+        "their medians would not be those of all",
+        p.cells, cells);
+  return fmt::format(
+      "population ({} of {} cells): Young's modulus {}, viscosity {}; spread by a factor of {:.2f} and {:.2f}", p.cells,
+      cells, with_interval(p.young_modulus_kPa, "kPa"), with_interval(p.viscosity_Pas, "Pa s"),
+      std::exp(p.modulus_spread), std::exp(p.viscosity_spread));
+}
+
+}  // namespace
+
 void CourseTable::check_places(const std::vector<CourseCell>& cells) const {
   std::size_t inside = 0;
   bool is_seen_again = false;
@@ -237,11 +254,8 @@ CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
           table_.spec().identifier));
     population.young_modulus_kPa = times(population.young_modulus_kPa, in.modulus);
     population.viscosity_Pas = times(population.viscosity_Pas, in.viscosity);
-    report.lines.push_back(
-        fmt::format("population: Young's modulus {}, viscosity {}; spread by a factor of {:.2f} and "
-                    "{:.2f}",
-                    with_interval(population.young_modulus_kPa, "kPa"), with_interval(population.viscosity_Pas, "Pa s"),
-                    std::exp(population.modulus_spread), std::exp(population.viscosity_spread)));
+    report.lines.push_back(population_text(population, cells.size()));
+    if (2 * population.cells < cells.size()) population = {};
   }
   if (auto text = elongation_text(report); !text.empty()) report.lines.push_back(std::move(text));
   report.remarks.insert(report.remarks.end(), report.lines.begin(), report.lines.end());
