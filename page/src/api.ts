@@ -215,8 +215,14 @@ export interface EventDetail {
   features: Record<string, number | null>;
   /** Of the files that it was read from. */
   version?: string;
+  /** From deformation. */
   young_modulus_kPa: number | null;
   standard_error_kPa: number | null;
+  /** As of an elongated cell: by the outline, or by the inertia ratio. */
+  young_modulus_asymmetry_kPa?: number | null;
+  standard_error_asymmetry_kPa?: number | null;
+  young_modulus_inertia_kPa?: number | null;
+  standard_error_inertia_kPa?: number | null;
   state: string;
   sentence: string;
   pixel_um: number | null;

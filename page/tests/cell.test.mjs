@@ -253,3 +253,24 @@ test('Two windows of one program do not cancel each other', { skip }, () =>
     assert.ok(await until(async () => (await shownDeformation(page)) > (await shownDeformation(other))));
     await other.close();
   }));
+
+test('Titles of choices are not broken within a word, and the chosen option is whole', { skip }, () =>
+  withCell(async ({ page }) => {
+    const broken = await page.locator('.control.options').evaluateAll((controls) => {
+      const label = controls[0].querySelector('label');
+      const before = label.textContent;
+      label.textContent = 'Viscoelasticity'; // of cells in time
+      const { height } = label.getBoundingClientRect();
+      const tall = height > 1.5 * parseFloat(getComputedStyle(label).lineHeight);
+      label.textContent = before;
+      const ink = document.createElement('canvas').getContext('2d');
+      const cut = controls.map((control) => control.querySelector('select')).filter((select) => {
+        const { font, paddingLeft } = getComputedStyle(select);
+        ink.font = font;
+        const arrow = 20;
+        return ink.measureText(select.selectedOptions[0].textContent).width > select.clientWidth - parseFloat(paddingLeft) - arrow;
+      });
+      return [...(tall ? ['Viscoelasticity'] : []), ...cut.map((select) => select.value)];
+    });
+    assert.deepEqual(broken, []);
+  }));

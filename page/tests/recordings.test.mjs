@@ -232,9 +232,9 @@ test('Names of condition and replicate give the distribution its means', { skip 
     await page.getByRole('tab', { name: 'Distributions' }).click();
     await page.locator('.violin').nth(1).waitFor();
     // Of two replicates once the second name has arrived, too.
-    const means = page.locator('.conditions tbody');
+    const means = page.locator('.conditions tbody', { hasText: 'one (2)' });
     await means.filter({ hasText: ' to ' }).waitFor();
-    assert.match(await means.textContent(), /^one2\d\.\d+ kPa\S* to /);
+    assert.match(await means.textContent(), /^one \(2\)Recommended E.*E from deformation\d\.\d+ kPa\S* to /);
   }),
 );
 

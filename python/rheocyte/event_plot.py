@@ -24,14 +24,15 @@ from rheocyte.figures.style import STYLE
 from rheocyte.page import thousands
 
 AXES_IN = np.array([2.6, 2.15])
-MARGINS_IN = (0.5, 0.4, 0.42, 0.56)  # of each panel: left, right, bottom, top
+MARGINS_IN = (0.5, 0.4, 0.42, 0.67)  # of each panel: left, right, bottom, top
 LEGEND_IN = 0.26  # below all panels
 GREATEST_NUMBER = 12000  # of events drawn in a panel; all count for colours and contours
-STANDARD_AREA, STANDARD_DEFORMATION, STANDARD_WIDTH = 200, 0.2, 20
+STANDARD_AREA, STANDARD_WIDTH = 200, 20
+LEAST_DEFORMATION = 0.03  # at the end of an axis: below, pixels are most of it
 LABELS = {"area_um": "area (µm²)", "deform": "deformation", "emodulus": "Young's modulus (kPa)",
           "volume": "volume (µm³)", "temp": "temperature (°C)", "time": "time (s)",
           "inertia_ratio_expected": "inertia ratio of the model's cell", "inertia_ratio": "inertia ratio, measured"}
-LINE, SUPPORT, HALF = "#7d8891", "#eef1f4", "#ffffff"
+LINE, SUPPORT, HALF, GATE = "#7d8891", "#eef1f4", "#ffffff", "#b3261e"
 
 
 @dataclass
@@ -42,6 +43,7 @@ class Panel:
     events: np.ndarray  # (n, 2)
     lines: list  # of (modulus in kPa, points)
     support: np.ndarray | None
+    gates: dict  # see draw_gates
 
 
 def polyline(entry):
@@ -54,10 +56,12 @@ def read_panels(folder):
     path = Path(folder) / "plot.json"
     try:
         panels = []
-        for story in json.loads(path.read_text(encoding="utf-8"))["panels"]:
+        handed = json.loads(path.read_text(encoding="utf-8"))
+        for story in handed["panels"]:
             events = np.fromfile(Path(folder) / story["events_file"], "<f4").reshape(-1, 2).astype(float)
             lines = [(float(line["young_modulus_kPa"]), polyline(line)) for line in story["lines"]]
-            panels.append(Panel(story, events, lines, polyline(story["support"]) if "support" in story else None))
+            support = polyline(story["support"]) if "support" in story else None
+            panels.append(Panel(story, events, lines, support, handed.get("gates", {})))
         return panels
     except OSError as error:
         raise InputError(f"{path.parent} cannot be read: {reason(error)}.") from error
@@ -66,7 +70,7 @@ def read_panels(folder):
 
 
 def upper_end(values, standard):
-    """The standard end of an axis, or a round one farther out if more than 1 % of the events lie beyond."""
+    """The standard end of an axis, or a round one farther out if more than 1 % of the events lie beyond it."""
     needed = float(np.quantile(values, 0.99))
     if needed <= standard:
         return standard
@@ -116,7 +120,7 @@ def ranges(panels):
     """Axes ((0, area), (0, deformation)) of each panel: areas alike for channels of one width, deformations for all."""
     if not is_usual(panels[0].story):
         return common_ranges(panels)
-    deformation = max(upper_end(panel.events[:, 1], STANDARD_DEFORMATION) for panel in panels)
+    deformation = max(upper_end(panel.events[:, 1], LEAST_DEFORMATION) for panel in panels)
     area = {}
     for panel in panels:
         width = panel.story["width_um"] or STANDARD_WIDTH
@@ -154,6 +158,7 @@ def draw_panel(axes, panel, rectangle):
         axes.plot(*[(0.5, 5)] * 2, color=LINE, linewidth=0.8, zorder=1)
         axes.fill_between((0.5, 5), (0.45, 4.95), (0.55, 5.05), color=SUPPORT, linewidth=0, zorder=0)
     draw_events(axes, panel.events, rectangle)
+    draw_gates(axes, panel.gates)
     label_lines(axes, panel.lines, rectangle)
     draw_words(axes, panel, rectangle)
 
@@ -178,6 +183,20 @@ def draw_events(axes, events, rectangle):
         # One collection since matplotlib 3.8, one per level before it.
         for collection in [contour] if isinstance(contour, Collection) else contour.collections:
             collection.set_path_effects([withStroke(linewidth=width + 1.1, foreground=HALF, alpha=0.7)])
+
+
+def limits_of(gates):
+    """Pairs of an axis, "x" or "y", and a limit of its feature."""
+    return [(axis, limit) for axis in ("x", "y") for limit in gates.get(axis, []) if limit is not None]
+
+
+def draw_gates(axes, gates):
+    """Limits of the features on the axes, and polygons over both: {"x": [min, max], "y": ..., "polygons": ...}."""
+    style = {"color": GATE, "linewidth": 0.8, "zorder": 3.5}
+    for axis, limit in limits_of(gates):
+        (axes.axvline if axis == "x" else axes.axhline)(limit, **style)
+    for polygon in gates.get("polygons", []):
+        axes.plot([*polygon["x"], polygon["x"][0]], [*polygon["y"], polygon["y"][0]], **style)
 
 
 def smoothed(points):
@@ -232,13 +251,15 @@ def label_lines(axes, lines, rectangle):
 
 
 def draw_words(axes, panel, rectangle):
-    """File, sample, number of events and conditions, in three rows above the labels of the lines."""
+    """File, sample, number of events, conditions and the modulus to report, in four rows above the labels of the lines."""
     story = panel.story
     small = {"xycoords": "axes fraction", "textcoords": "offset points", "fontsize": 5.8, "color": "#56616b"}
-    axes.set_title(shortened(story["title"], 44), pad=27)
-    axes.annotate(shortened(story["sample"], 34), (0, 1), xytext=(0, 19), **small)
-    axes.annotate(shortened(story["measured"], 64), (0, 1), xytext=(0, 11), **small)
-    axes.annotate(number_of_events(panel, rectangle), (1, 1), xytext=(0, 19), ha="right", **{**small, "color": colours.INK})
+    ink = {**small, "color": colours.INK}
+    axes.set_title(shortened(story["title"], 44), pad=35)
+    axes.annotate(shortened(story["sample"], 34), (0, 1), xytext=(0, 27), **small)
+    axes.annotate(number_of_events(panel, rectangle), (1, 1), xytext=(0, 27), ha="right", **ink)
+    axes.annotate(shortened(story["measured"], 64), (0, 1), xytext=(0, 19), **small)
+    axes.annotate(story.get("recommended", "").replace("+-", "±"), (0, 1), xytext=(0, 11), **ink)
 
 
 def number_of_events(panel, rectangle):
@@ -270,9 +291,11 @@ def draw_legend(figure, panels):
     drawn = [panel for panel in panels if panel.lines]
     if drawn:
         note = "" if drawn[0].story["pixels"] else ", without pixelation"
-        entries.append(Line2D([], [], color=LINE, linewidth=0.7, label=f"equal modulus, {drawn[0].story['table']}{note}"))
+        entries.append(Line2D([], [], color=LINE, linewidth=0.7, label=f"equal E from deformation, {drawn[0].story['table']}{note}"))
     if any(panel.support is not None for panel in panels):
         entries.append(Patch(facecolor=SUPPORT, edgecolor="#c9d0d6", linewidth=0.4, label="range of the table"))
+    if limits_of(panels[0].gates) or panels[0].gates.get("polygons"):
+        entries.append(Line2D([], [], color=GATE, linewidth=0.8, label="gates"))
     columns = len(entries) if len(panels) > 1 else 2
     figure.legend(handles=entries, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, frameon=False, fontsize=5.8,
                   borderaxespad=0.3, columnspacing=1.6, handlelength=2.2, labelspacing=0.25)

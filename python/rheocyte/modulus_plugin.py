@@ -23,7 +23,7 @@ DATA = "{}"  # `rheocyte dclab-plugin` puts tables and laws behind this text
 # The numbers of the states are those of all files of rheocyte.
 VALID, NO_DATA, TOO_SMALL, TOO_LARGE, TOO_STIFF, UNRESOLVED, REGULARISED, INERTIAL = 0, 1, 2, 3, 4, 7, 8, 10
 WITH_MODULUS = (VALID, REGULARISED, INERTIAL)
-FEATURES = ("rheocyte_modulus", "rheocyte_modulus_error", "rheocyte_state", "rheocyte_shape_excess")
+FEATURES = ("rheocyte_modulus", "rheocyte_modulus_error", "rheocyte_state", "rheocyte_shape_excess", "rheocyte_recommended")
 WORDS_OF_SOLUTIONS = set("mc pbs methyl cellulose methylcellulose in w v wt 1x solution buffer".split())
 EVENTS_AT_ONCE = 1 << 16  # memory does not grow with the recording
 
@@ -347,7 +347,7 @@ def inertia_ratios(dataset):
 
 
 def moduli_of(dataset):
-    """The features of all events, (4, events)."""
+    """The features of all events, (5, events)."""
     settings = settings_of(dataset)
     viscosity, exponent = liquid(settings, dataset)
     table = table_for(settings, exponent)
@@ -358,6 +358,8 @@ def moduli_of(dataset):
         smooth = without_pixels(area[some], deformation[some], settings, table)
         found[:3, some] = modulus(smooth, viscosity[some], settings, table)
         found[3, some] = table.shapes.excess(*smooth[:2], ratio[some])
+    told = json.loads(sections(dataset, "user")[0].get("rheocyte recommended", "{}"))  # of companions that `rheocyte extract` has written
+    found[4] = told.get("young_modulus_median_kPa") or np.nan
     return found
 
 
@@ -370,7 +372,7 @@ def can_compute(dataset):
 
 
 def compute(dataset):
-    """Modulus (kPa), its standard error (kPa), the state and the excess of the inertia ratio of each event."""
+    """The features of each event; the modulus to report (kPa) is that of the recording, the same for all."""
     try:
         with np.errstate(all="ignore"):
             found = moduli_of(dataset)
@@ -385,15 +387,14 @@ info = {
     "method": compute,
     "method check required": can_compute,
     "description": "Young's modulus by rheocyte's tables",
-    "long description": "Young's modulus of each event with its standard error, corrected for pixels, by the table of "
-                        "the medium for the square channel. States: 0 valid, 1 no data, 2 too small, 3 too large, 4 "
-                        "too stiff, 5 too soft, 6 unstable, 7 unresolved; with a modulus: 8 regularised, 10 inertial. "
-                        "Shape excess: inertia ratio less that of the table's cell. Medium, viscosity, its model and "
-                        "temperature follow the settings of the Young's modulus; the look-up table chosen there does "
-                        "not count, unless it is one of those inside this file (HE-3D-26, HE-3D-MC049-26, ...).",
+    "long description": "Young's modulus of each event from area and deformation with its standard error, corrected for pixels, by the table of "
+                        "the medium for the square channel. Recommended: the modulus to report of the recording, in companions of rheocyte "
+                        "extract. States: 0 valid, 1 no data, 2 too small, 3 too large, 4 too stiff, 5 too soft, 6 unstable, 7 unresolved; with "
+                        "a modulus: 8 regularised, 10 inertial. Shape excess: inertia ratio less that of the table's cell. Medium, viscosity, "
+                        "its model and temperature follow the settings of the Young's modulus; the look-up table chosen there does not count, "
+                        "unless it is one of those inside this file (HE-3D-26, HE-3D-MC049-26, ...).",
     "feature names": list(FEATURES),
-    "feature labels": ["Young's modulus (rheocyte) [kPa]", "Standard error of Young's modulus (rheocyte) [kPa]",
-                       "State of Young's modulus (rheocyte)", "Excess of the inertia ratio (rheocyte)"],
-    "features required": ["area_um", "deform"],
-    "scalar feature": [True, True, True, True],
+    "feature labels": ["Young's modulus from deformation (rheocyte) [kPa]", "Standard error of Young's modulus (rheocyte) [kPa]",
+                       "State of Young's modulus (rheocyte)", "Excess of the inertia ratio (rheocyte)", "Recommended Young's modulus (rheocyte) [kPa]"],
+    "features required": ["area_um", "deform"], "scalar feature": [True] * len(FEATURES),
 }

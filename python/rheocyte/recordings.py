@@ -1,5 +1,6 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
+import json
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -34,7 +35,10 @@ def extract(recording, *, progress=None, **settings):
     axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
     young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
     settings, warnings, shapes (what is said
-    about the shapes of all events, in sentences).
+    about the shapes of all events, in sentences), recommended (which modulus of the recording is to be reported, a dictionary of
+    the columns "recommended_..." of the summary table: modulus is "deformation", "elongated" or "none",
+    young_modulus_median_kPa with young_modulus_median_error_kPa by the scatter of the events and young_modulus_common_error_kPa
+    that they share, text the sentence; None for what is not known).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
     known to break down on some damaged files.
@@ -197,6 +201,8 @@ def _framed(columns, said, attributes, source):
     for name in {"settings", "shapes", "warnings"} & {*attributes}:
         attributes[name] = source.told(attributes[name])
     attributes["warnings"] += source.warnings
+    if "recommended" in attributes:
+        attributes["recommended"] = json.loads(attributes["recommended"])
     for name, column in columns.items():
         if name in said["words"]:
             columns[name] = pandas.Categorical.from_codes(column, said["words"][name])

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from rheocyte.density import Density, levels_enclosing, thinned
-from rheocyte.event_plot import smoothed, upper_end, visible_part
+from rheocyte.event_plot import Panel, draw, limits_of, ranges, smoothed, upper_end, visible_part
 
 PACKAGE = Path(__file__).resolve().parents[1]
 RECTANGLE = ((0.0, 200.0), (0.0, 0.2))
@@ -70,6 +70,26 @@ class Axes(unittest.TestCase):
         self.assertEqual(upper_end(np.append(np.full(999, 80.0), 900), 200), 200)  # one in a thousand may be outside
         self.assertEqual(upper_end(np.full(100, 310.0), 200), 350)
 
+    def test_the_axis_of_deformations_ends_where_the_events_do(self):
+        """All panels of a picture share one, which leaves at most a fifth of its length empty."""
+        story = {"width_um": 20}
+        panels = [Panel(story, np.stack([np.full(100, 80.0), np.full(100, d)], axis=1), [], None, {}) for d in (0.04, 0.011)]
+        for count, greatest in ((2, 0.04), (1, 0.04)):
+            (_, (low, high)), *others = ranges(panels[:count])
+            self.assertEqual(low, 0)
+            self.assertTrue(greatest < high < 1.25 * greatest)
+            self.assertTrue(all(other[1] == (low, high) for other in others))
+        self.assertEqual(ranges(panels[1:])[0][1], (0, 0.03))
+
+    def test_gates_on_the_axes_are_drawn(self):
+        gates = {"x": [60, 90], "y": [None, 0.08], "polygons": [{"x": [70, 95, 80], "y": [0.01, 0.01, 0.05]}]}
+        self.assertEqual(limits_of(gates), [("x", 60), ("x", 90), ("y", 0.08)])
+        story = {"title": "a", "sample": "", "measured": "", "events": 2, "drawable": 2, "width_um": 20}
+        axes, = draw([Panel(story, np.array([[80, 0.03], [85, 0.04]]), [], None, gates)]).axes
+        drawn = [line.get_xydata().tolist() for line in axes.lines]
+        self.assertIn([[70, 0.01], [95, 0.01], [80, 0.05], [70, 0.01]], drawn)
+        self.assertEqual(len(drawn), 4)
+
     def test_lines_are_cut_at_the_axes(self):
         line = np.array([[50, 0.0], [150, 0.1], [250, 0.2]])
         np.testing.assert_allclose(visible_part(line, RECTANGLE)[-1], [200, 0.15])
@@ -97,7 +117,8 @@ class Pictures(unittest.TestCase):
                  "width_um": 20, "events_file": "events-0", "table": "TEST", "pixels": 0.34,
                  "lines": [{"young_modulus_kPa": 1.23, "area_um2": [50, 250], "deformation": [0.01, 0.15]}],
                  "support": {"area_um2": [30, 280, 280, 30], "deformation": [0, 0, 0.18, 0.1]}}
-        (self.folder / "plot.json").write_text(json.dumps({"panels": [story]}), encoding="utf-8")
+        gates = {"x": [80, None], "y": [None, None], "polygons": [{"x": [80, 120, 100], "y": [0.05, 0.05, 0.1]}]}
+        (self.folder / "plot.json").write_text(json.dumps({"panels": [story], "gates": gates}), encoding="utf-8")
 
     def test_words_of_the_picture(self):
         for count in (1, 3000):
@@ -107,7 +128,7 @@ class Pictures(unittest.TestCase):
             self.assertTrue((self.folder / "out.png").read_bytes().startswith(b"\x89PNG"))
         # Letters are outlines in the file; matplotlib keeps the text as comments.
         svg = (self.folder / "out.svg").read_text()
-        for words in ("M001.rtdc", "1.2 kPa", "beads", "20 µm", "3\u2009002 events, 2 without shape", "range of the table", "equal modulus, TEST"):
+        for words in ("M001.rtdc", "1.2 kPa", "beads", "20 µm", "3\u2009002 events, 2 without shape", "range of the table", "equal E from deformation, TEST", "gates"):
             self.assertTrue(words in svg, words)
         self.assertLess((self.folder / "out.svg").stat().st_size, 6e5)
 

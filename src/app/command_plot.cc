@@ -15,6 +15,7 @@
 #include "case/json_guard.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "extract/plot_gates.h"
 #include "extract/plot_lines.h"
 #include "extract/plot_panel.h"
 #include "store/atomic_file.h"
@@ -69,7 +70,7 @@ class Plot {
       panels.back()["events_file"] = name;
     }
     if (const std::string why = lines_.why_none(); !why.empty() && !options_.quiet) tell(why);
-    const auto text = json_line({{"panels", panels}});
+    const auto text = json_line({{"panels", panels}, {"gates", gates_in_picture(options_)}});
     if (write_part(folder_.path() / "plot.json", text))
       throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
     return draw();
@@ -95,6 +96,7 @@ class Plot {
     json j{{"title", one_line(recording.filename().string(), 100)},
            {"sample", panel.sample},
            {"measured", panel.measured},
+           {"recommended", panel.recommended},
            {"events", panel.events},
            {"gated", panel.gated},
            {"drawable", panel.drawable},

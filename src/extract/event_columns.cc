@@ -59,7 +59,7 @@ ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
       {{"area_um2", "um2", "Area", "area of the convex hull"}, stored(&B::area_um2)},
       {{"deformation", "", "Deformation", "1 - circularity of the convex hull"}, stored(&B::deformation)},
       {{"viscosity_mPas", "mPa s", "Viscosity", "viscosity of the liquid"}, stored(&B::viscosity_mPas)},
-      {{"young_modulus_kPa", "kPa", "Young's modulus E", "Young's modulus", "emodulus"},
+      {{"young_modulus_kPa", "kPa", "E from deformation", "Young's modulus", "emodulus"},
        stored(&B::young_modulus_kPa)}};
   if (known.errors)
     columns.push_back(

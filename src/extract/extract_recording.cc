@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
+#include "case/json_guard.h"
 #include "case/user_error.h"
 #include "extract/companion_origin.h"
 #include "extract/companion_shapes.h"
 #include "extract/event_pass.h"
 #include "extract/event_table.h"
 #include "extract/extraction.h"
+#include "extract/recommended_columns.h"
 #include "measurement/companion_file.h"
 #include "store/own_file.h"
 
@@ -86,9 +88,12 @@ class Writers {
     if (table_) table_->append(values);
   }
 
-  void close() {
+  void close(const ExtractSummary& summary) {
+    companion_.add_user_metadata("rheocyte recommended", json_line(recommended_json(summary)));
     companion_.close();
-    if (table_) table_->close();
+    if (!table_) return;
+    table_->remark(recommended_lines(summary));
+    table_->close();
   }
 
   /// What has no place in the companion and would be missed there; empty if everything has.
@@ -160,8 +165,8 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
   Writers writers(files, recording, extraction);
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { writers.write(first, extraction.compute(first, count)); });
-  writers.close();
   ExtractSummary summary = extraction.summary();
+  writers.close(summary);
   if (const auto missing = writers.missing(); !missing.empty()) summary.warnings.push_back(missing);
   return summary;
 }

@@ -71,6 +71,13 @@ Gates::Limits Gates::limits_of(std::string_view feature) const {
   return {limit.min, limit.max};
 }
 
+std::vector<std::vector<PolygonGate::Corner>> Gates::outlines_over(std::string_view x, std::string_view y) const {
+  std::vector<std::vector<PolygonGate::Corner>> outlines;
+  for (const auto& polygon : polygons_)
+    if (auto outline = polygon.outline_over(x, y); !outline.empty()) outlines.push_back(std::move(outline));
+  return outlines;
+}
+
 std::string Gates::description_without(std::initializer_list<std::string_view> features) const {
   std::string text;
   for (const auto& [feature, min, max] : limits_) {

@@ -28,6 +28,8 @@ class Gates {
     double min, max;
   };
   Limits limits_of(std::string_view feature) const;
+  /// Those that are polygons over two features, see PolygonGate::outline_over.
+  std::vector<std::vector<PolygonGate::Corner>> outlines_over(std::string_view x, std::string_view y) const;
 
   /// UserError naming a feature that the recording does not have.
   void check(const EventFeatures& features) const;

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "extract/event_pass.h"
 #include "extract/extract_settings.h"
+#include "extract/extraction.h"
 #include "extract/gates.h"
+#include "extract/modulus_tables.h"
+#include "extract/recommended_columns.h"
 #include "extract/shape_features.h"
 #include "measurement/event_features.h"
 #include "measurement/shape_source.h"
@@ -83,6 +87,60 @@ class Axes {
   std::vector<char> inside_;
 };
 
+/// Which modulus of a recording is to be reported, as `rheocyte extract` with these options recommends it.
+class Reporting {
+ public:
+  Reporting(const Recording& recording, const PlotOptions& options)
+      : options_(extract_options_of(options)),
+        tables_(options.table, options.section),
+        extraction_(recording, options_, tables_) {}
+  void take(std::size_t first, std::size_t count) { static_cast<void>(extraction_.compute(first, count)); }
+  std::string text() { return recommended_in_short(extraction_.summary()); }
+
+ private:
+  static ExtractOptions extract_options_of(const PlotOptions& options) {
+    ExtractOptions extract;
+    extract.measuring = options.measuring;
+    extract.table = options.table;
+    extract.section = options.section;
+    extract.no_pixelation = options.no_pixelation;
+    return extract;
+  }
+
+  ExtractOptions options_;
+  ModulusTables tables_;
+  Extraction extraction_;
+};
+
+/// Null where there are no moduli.
+std::unique_ptr<Reporting> reporting_of(const Recording& recording, const PlotOptions& options,
+                                        const PlotPanel& panel) {
+  if (!panel.has_conditions || !has_usual_axes(options)) return nullptr;
+  try {
+    return std::make_unique<Reporting>(recording, options);
+  } catch (const UserError&) {
+    return nullptr;
+  }
+}
+
+void find_conditions(const Recording& recording, const PlotOptions& options, LinesWanted lines, PlotPanel& panel) {
+  if (is_of_the_reservoir(recording)) {
+    panel.measured = "reservoir";
+    if (lines == LinesWanted::yes)
+      panel.warnings.emplace_back("was recorded in the reservoir, where no isoelasticity lines exist.");
+  } else if (lines == LinesWanted::yes) {
+    take_conditions(recording, options, panel);
+  } else if (lines == LinesWanted::if_possible) {
+    try {
+      take_conditions(recording, options, panel);
+    } catch (const UserError& missing) {
+      const std::string sentence = missing.what(), name = one_line(recording.file().string(), 300) + ": ";
+      panel.warnings.push_back("drawn without isoelasticity lines: " +
+                               (sentence.starts_with(name) ? sentence.substr(name.size()) : sentence));
+    }
+  }
+}
+
 }  // namespace
 
 bool is_of_the_reservoir(const Recording& recording) {
@@ -117,24 +175,13 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
   panel.sample = one_line(recording.metadata().text("experiment:sample").value_or(""), 60);
   const auto& metadata = recording.metadata();
   panel.width_um = options.measuring.channel_width_um.value_or(metadata.number("setup:channel width").value_or(0));
-  if (is_of_the_reservoir(recording)) {
-    panel.measured = "reservoir";
-    if (lines == LinesWanted::yes)
-      panel.warnings.emplace_back("was recorded in the reservoir, where no isoelasticity lines exist.");
-  } else if (lines == LinesWanted::yes) {
-    take_conditions(recording, options, panel);
-  } else if (lines == LinesWanted::if_possible) {
-    try {
-      take_conditions(recording, options, panel);
-    } catch (const UserError& missing) {
-      panel.warnings.push_back(fmt::format("drawn without isoelasticity lines. {}", missing.what()));
-    }
-  }
+  find_conditions(recording, options, lines, panel);
   panel.warnings.insert(panel.warnings.begin(), recording.remarks().begin(), recording.remarks().end());
   const double pixel_size_um =
       options.measuring.pixel_size_um.value_or(metadata.number("imaging:pixel size").value_or(0));
   ShapeSource shapes(recording, pixel_size_um);
   Axes axes(recording, shapes, options);
+  const auto reporting = reporting_of(recording, options, panel);
   Pairs pairs;
   std::vector<double> x, y;
   pass.in_blocks(events_at_a_time, [&](std::size_t first, std::size_t count) {
@@ -144,7 +191,9 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
     const auto drawable = pairs.of(x, y);
     take_pairs(drawable);
     panel.drawable += drawable.size() / 2;
+    if (reporting) reporting->take(first, count);
   });
+  if (reporting) panel.recommended = reporting->text();
   if (panel.drawable == 0)
     refuse_path(file, fmt::format("no event {}has {} and {}, so there is nothing to draw.",
                                   panel.gated > 0 ? "inside the gates " : "", options.x, options.y));

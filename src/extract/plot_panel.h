@@ -23,13 +23,14 @@ struct PlotPanel {
   MeasuringConditions conditions;
   double width_um = 0;           ///< of the channel, 0 if unknown
   std::string sample, measured;  ///< the metadata's name of the sample; channel, flow, viscosity in one line
+  std::string recommended;       ///< recommended_in_short; empty where no lines are wanted
   std::vector<std::string> warnings;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& p) {
     return std::tie(p.events, p.gated, p.drawable, p.has_conditions, p.conditions, p.width_um, p.sample, p.measured,
-                    p.warnings);
+                    p.recommended, p.warnings);
   }
 };
 

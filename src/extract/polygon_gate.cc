@@ -37,6 +37,8 @@ double corner_number(std::string_view text) {
 
 double PolygonGate::Axis::place(double value) const { return is_log ? std::log10(value) : value; }
 
+double PolygonGate::Axis::value(double place) const { return is_log ? std::pow(10, place) : place; }
+
 PolygonGate::Axis PolygonGate::axis_of(const std::string& name) {
   const bool is_log = name.starts_with(logarithmic);
   return {is_log ? name.substr(logarithmic.size()) : name, is_log};
@@ -90,6 +92,22 @@ bool PolygonGate::holds(double x, double y) const {
     if (y >= a.y && y < b.y && x < a.x + (b.x - a.x) / (b.y - a.y) * (y - a.y)) is_inside = !is_inside;
   }
   return is_inside;
+}
+
+std::vector<PolygonGate::Corner> PolygonGate::outline_over(std::string_view x, std::string_view y) const {
+  const bool is_swapped = x_.feature == y && y_.feature == x;
+  if (!is_swapped && (x_.feature != x || y_.feature != y)) return {};
+  const int pieces = x_.is_log || y_.is_log ? 32 : 1;
+  std::vector<Corner> outline;
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Corner &a = corners_[k], &b = corners_[(k + 1) % corners_.size()];
+    for (int piece = 0; piece < pieces; ++piece) {
+      const double part = double(piece) / pieces;
+      outline.push_back({x_.value(a.x + part * (b.x - a.x)), y_.value(a.y + part * (b.y - a.y))});
+      if (is_swapped) std::swap(outline.back().x, outline.back().y);
+    }
+  }
+  return outline;
 }
 
 void PolygonGate::apply(EventFeatures& features, std::size_t first, std::vector<char>& inside) const {

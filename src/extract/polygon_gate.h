@@ -1,6 +1,7 @@
 // A polygon in the plane of two features, within which events are taken.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measurement/event_features.h"
@@ -34,12 +35,16 @@ class PolygonGate {
   /// Whether the place lies within, by the number of edges to the right (even-odd); the lower end of an edge belongs to
   /// it, the upper one does not.
   bool holds(double x, double y) const;
+  /// Its corners as values of two features, with more of them along edges that are curved there; empty if it is one of
+  /// other features.
+  std::vector<Corner> outline_over(std::string_view x, std::string_view y) const;
 
  private:
   struct Axis {
     std::string feature;
     bool is_log = false;
     double place(double value) const;
+    double value(double place) const;
   };
   static Axis axis_of(const std::string& name);
 

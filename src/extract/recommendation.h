@@ -36,7 +36,7 @@ struct Recommendation {
   Median kPa = {};              ///< with both errors; NaN without a number
   CensoredMedian events = {};   ///< how many events have a modulus by the way that was judged, and how many lie beyond
   double bound_kPa = no_value;  ///< of a median beyond the table; the side is events.place
-  DensityMaxima log_maxima;     ///< of ln(E / kPa): two populations have two
+  DensityMaxima log_maxima = {};  ///< of ln(E / kPa): two populations have two
 
   /// "softer", "stiffer", or empty without a bound.
   std::string_view bound() const;

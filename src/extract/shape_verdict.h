@@ -64,7 +64,7 @@ struct JudgedModulus {
   double soft_end_kPa = no_value;     ///< of the softest cell of the table that has the size of those that are softer
   double common_error = no_value;     ///< of the median, relative (common_errors.h)
   double least_error_kPa = no_value;  ///< of the median, by the errors of the events alone
-  DensityMaxima log_maxima;           ///< of ln(E / kPa) of the events that have one
+  DensityMaxima log_maxima = {};      ///< of ln(E / kPa) of the events that have one
 
   /// For store/bytes.h.
   template <class Self>

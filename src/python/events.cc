@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "case/json_guard.h"
 #include "extract/event_pass.h"
 #include "extract/extraction.h"
+#include "extract/recommended_columns.h"
 #include "extract/shape_words.h"
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
@@ -30,8 +32,13 @@ GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
   const ExtractSummary summary = extraction.summary();
-  return {events.events(),  events.write(memory),        extraction.lines(),
-          summary.warnings, shape_lines(summary.shapes), summary.table};
+  return {events.events(),
+          events.write(memory),
+          extraction.lines(),
+          summary.warnings,
+          shape_lines(summary.shapes),
+          summary.table,
+          json_text(recommended_json(summary))};
 }
 
 py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {

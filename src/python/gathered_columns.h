@@ -16,12 +16,12 @@ struct GatheredEvents {
   std::uint64_t events = 0;
   std::vector<SharedColumn> columns;
   std::vector<std::string> settings, warnings, shapes = {};
-  std::string table = {};
+  std::string table = {}, recommended = {};  ///< the latter as JSON
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.columns, s.settings, s.warnings, s.shapes, s.table);
+    return std::tie(s.events, s.columns, s.settings, s.warnings, s.shapes, s.table, s.recommended);
   }
 
   /// A pair: SharedColumns::arrays, and a dictionary of the rest.
@@ -32,6 +32,7 @@ struct GatheredEvents {
     if (!table.empty()) {
       said["shapes"] = shapes;
       said["table"] = table;
+      said["recommended"] = recommended;
     }
     return pybind11::make_tuple(memory.arrays(columns, events), said);
   }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "extract/companion_origin.h"
+#include "extract/recommended_columns.h"
 #include "extract/shape_words.h"
 #include "extract/summary_columns.h"
 #include "store/file_writer.h"
@@ -16,17 +17,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-Json cell(const RowColumn<ExtractSummary>& column, const ExtractSummary& summary) {
-  const std::string text = summary_text(column, summary);
-  if (text.empty()) return nullptr;
-  return std::holds_alternative<double>(column.value(summary)) ? Json(std::stod(text)) : Json(text);
-}
-
 }  // namespace
 
 Json moduli_report(const fs::path& recording, const ExtractSummary& summary) {
   Json columns{{"recording", recording.string()}}, lines = Json::array({in_one_line(summary)});
-  for (const auto& column : summary_columns()) columns[column.name] = cell(column, summary);
+  for (const auto& column : summary_columns()) columns[column.name] = summary_json(column, summary);
   for (const auto& one : shape_lines(summary.shapes)) lines.push_back(one);
   for (const auto& warning : summary.warnings) lines.push_back(warning);
   Json counts = Json::object();

@@ -92,6 +92,7 @@ TEST_F(Plot, WithoutATableTheLinesAreThoseOfTheProgramsOwn) {
   const auto bare = plot({path("bare.rtdc")});
   EXPECT_EQ(bare.exit_code, 0) << bare.err;
   EXPECT_NE(bare.err.find("drawn without isoelasticity lines"), std::string::npos) << bare.err;
+  EXPECT_EQ(bare.err.find(".rtdc:"), bare.err.rfind(".rtdc:")) << "the recording is named once: " << bare.err;
   EXPECT_NE(bare.err.find("--channel-width-um"), std::string::npos) << bare.err;
 }
 

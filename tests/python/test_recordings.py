@@ -1,5 +1,6 @@
 """Recordings and masks give in Python what dclab and the command line give; mistakes are told."""
 
+import json
 import subprocess
 import sys
 
@@ -217,6 +218,28 @@ def test_virtual_cells_come_back(tmp_path):
         rheocyte.synth({**CELLS, "recording": {"cels": 3}}, tmp_path / "other.rtdc")
     with pytest.raises(UserError, match=".rtdc"):
         rheocyte.synth(CELLS, tmp_path / "other.h5")
+
+
+def test_what_is_recommended_is_the_same_wherever_it_stands(program, tmp_path):
+    """In the summary, below the events, in the companion and in Python; of cells that an axial tension draws out it is not
+    the modulus from deformation, which is more than 10 % lower."""
+    h5py = pytest.importorskip("h5py")
+    file = tmp_path / "cells.rtdc"
+    rheocyte.synth(CELLS, file, flow__axial_tension_Pa=400, cell__bulk__young_modulus_kPa__mean=3)
+    events = rheocyte.extract(file)
+    recommended = events.attrs["recommended"]
+    subprocess.run([program, "extract", file, "-o", tmp_path / "out", "--quiet"], check=True)
+    summary = pandas.read_csv(tmp_path / "out/rheocyte_summary.tsv", sep="\t").iloc[0]
+    told = {name.removeprefix("recommended_"): value for name, value in summary.items() if name.startswith("recommended_")}
+    assert recommended == {name: None if pandas.isna(value) else value for name, value in told.items()}
+    with h5py.File(tmp_path / "out/cells_rheocyte.rtdc") as companion:
+        assert json.loads(companion.attrs["user:rheocyte recommended"]) == recommended
+    lines = (tmp_path / "out/cells_rheocyte.tsv").read_text(encoding="utf-8").splitlines()
+    last = dict(line.removeprefix("# recommended_").split(": ", 1) for line in lines if line.startswith("# recommended_"))
+    assert set(last) == {name for name, value in recommended.items() if value is not None}
+    assert all(recommended[name] in (text, float(text) if isinstance(recommended[name], float) else text) for name, text in last.items())
+    assert recommended["modulus"] == "elongated"
+    assert events["young_modulus_kPa"].median() < 0.9 * recommended["young_modulus_median_kPa"]
 
 
 def test_a_temperature_fills_what_is_missing(tmp_path):

@@ -30,8 +30,15 @@ def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t")
     assert list(report["recording"]) == ["a", "day 1/b"]
-    error = report["standard_error_of_median_kPa"]
-    assert ((report["median_kPa"] - [1.0, 1.5]).abs() < 5 * error).all()
+    assert ((report["deformation_median_kPa"] - [1.0, 1.5]).abs() < 5 * report["deformation_median_error_kPa"]).all()
+    for place, (_, line) in zip(("out", "out/day 1"), report.iterrows()):
+        summary = pandas.read_csv(tmp_path / place / "rheocyte_summary.tsv", sep="\t").iloc[0]
+        recommended = [name for name in summary.index if name.startswith("recommended_")]
+        assert len(recommended) >= 5 and report.columns[0] == "recording"
+        assert all(name.startswith("recommended_") for name in report.columns[1:6])
+        for name in recommended:  # an empty text and no number are both NaN here
+            same = line[name] == summary[name] if name in report else pandas.isna(summary[name])
+            assert same or pandas.isna(line[name]) and pandas.isna(summary[name]), name
     for made in ("report.png", "a_rheocyte.png", "day 1/b_rheocyte.rtdc"):
         assert (tmp_path / "out" / made).stat().st_size > 0
     again = workflow(program, tmp_path)
@@ -53,12 +60,30 @@ def test_recordings_without_moduli_are_lines_of_the_report(program, tmp_path):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t", index_col="recording")
     assert list(report.index) == ["cells", "damaged", "reservoir", "tiny"]
-    assert report.loc["cells", "with_modulus"] > 0 and (report["with_modulus"].iloc[1:] == 0).all()
+    with_modulus = report["with_modulus_from_deformation"]
+    assert with_modulus["cells"] > 0 and (with_modulus.iloc[1:] == 0).all()
+    assert (report["recommended_modulus"].iloc[1:] == "none").all() and report["recommended_text"].notna().all()
+    assert report["recommended_young_modulus_median_kPa"].iloc[1:].isna().all()
     reason = report["without_moduli_because"]
     assert pandas.isna(reason["cells"]) and reason["reservoir"].startswith("was recorded in the reservoir")
     assert "damaged" in reason["damaged"] and reason["tiny"] == f"{report.loc['tiny', 'events']} too_small"
     for name in report.index:
         assert (tmp_path / f"out/{name}_rheocyte.png").stat().st_size > 0
+
+
+def test_the_report_has_the_number_that_extract_recommends(program, tmp_path):
+    """Of elongated cells E from deformation is a quarter too low; it stands in the report by its name."""
+    (tmp_path / "in").mkdir()
+    rheocyte.synth(CELLS, tmp_path / "in/a.rtdc", cell__radius_um__mean=6.5, cell__bulk__young_modulus_kPa=4, flow__rate_ul_per_s=0.06,
+                   flow__axial_tension_Pa=400)
+    ended = workflow(program, tmp_path)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    line = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t").iloc[0]
+    recommended = rheocyte.extract(tmp_path / "in/a.rtdc").attrs["recommended"]
+    assert line["recommended_modulus"] == recommended["modulus"] == "elongated"
+    assert line["recommended_young_modulus_median_kPa"] == recommended["young_modulus_median_kPa"]
+    assert line["recommended_text"] == recommended["text"]
+    assert line["deformation_median_kPa"] < 0.85 * line["recommended_young_modulus_median_kPa"]
 
 
 def test_a_wrong_option_stops_the_workflow(program, tmp_path):

@@ -94,12 +94,12 @@ function Margin({ solved }: { solved: model.Solved }) {
 function Accuracy({ solved }: { solved: model.Solved }) {
   const working = useStore(model.working);
   const relative = solved.state.estimated_error;
-  const text = working === 'idle' ? 'as accurate as wanted' : working === 'refining' ? 'refining' : 'solving';
+  const text = working === 'idle' ? 'as accurate as requested' : working === 'refining' ? 'refining' : 'solving';
   return (
     <div class="measure accuracy">
-      <dt>Estimated error of the deformation</dt>
+      <dt>Relative error of the deformation, estimated</dt>
       <dd>
-        <span class="value">{relative === null ? '–' : raised(relative.toExponential(1).replace('e', ' × 10^'))}</span>
+        <span class="value">{relative === null ? '–' : `${significant(100 * relative, 2)} %`}</span>
         <span class="error">{solved.final && working === 'idle' ? text : `${text} …`}</span>
       </dd>
     </div>

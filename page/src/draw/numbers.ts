@@ -11,6 +11,14 @@ export function significant(value: number, digits = 4): string {
   return minus(value.toFixed(Math.max(0, digits - 1 - exponent)));
 }
 
+/** "1.860 ± 0.093 ± 0.020": two digits of the greatest error, and all to the same place. */
+export function withErrors(value: number, errors: (number | null)[]): string {
+  const known = errors.filter((error): error is number => error !== null && error > 0);
+  if (known.length === 0) return significant(value, 3);
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(Math.max(...known))));
+  return [value, ...known].map((each) => minus(each.toFixed(decimals))).join(' ± ');
+}
+
 /** The shortest text of a number that a person set: 3.437, 0.04, 1e-7. */
 export function plain(value: number): string {
   if (value !== 0 && (Math.abs(value) < 1e-4 || Math.abs(value) >= 1e7)) {

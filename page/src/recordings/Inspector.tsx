@@ -1,7 +1,7 @@
 // One event: its image with outline and model, its features, its modulus or the reason why there is none.
 import { useEffect, useState } from 'preact/hooks';
 import { readEvent, type CombinedCell, type EventDetail } from '../api';
-import { significant } from '../draw/numbers';
+import { significant, withErrors } from '../draw/numbers';
 import { openInCell } from '../shell/open_in_cell';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
@@ -9,7 +9,8 @@ import { TypedInput } from '../shell/TypedInput';
 import { nameOf, unitOf } from './features';
 import { EventImage } from './EventImage';
 import { choice, focus, itemOf, items, readRecordings, titleOf, type Choice } from './model';
-import { moduliVersion } from './moduli';
+import { moduli, moduliVersion } from './moduli';
+import { recommendedOf } from './recommended';
 import { ResidualPlot } from './ResidualPlot';
 import { counted } from './scale';
 
@@ -54,24 +55,50 @@ function useDetail(chosen: Choice | null): Found {
   return { inspected: shown, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
-/** "1.860 ± 0.093": two digits of the error, and the value to the same place. */
-function withError(value: number, error: number | null): string {
-  if (error === null || !(error > 0)) return significant(value, 3);
-  const decimals = Math.max(0, 1 - Math.floor(Math.log10(error)));
-  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+function Value({ value, error }: { value: number; error: number | null | undefined }) {
+  return (
+    <>
+      <span class="symbol">E</span> {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
+    </>
+  );
 }
 
-function Modulus({ detail }: { detail: EventDetail }) {
+/** The modulus of the kind that is recommended for the recording, and that from deformation by its name. */
+function Headline({ detail, by }: { detail: EventDetail; by: string }) {
   const value = detail.young_modulus_kPa;
+  const elongated = detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null;
+  const error = detail.standard_error_asymmetry_kPa ?? detail.standard_error_inertia_kPa;
+  const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.standard_error_kPa} />;
+  if (by !== 'elongated' && by !== 'none')
+    return (
+      <>
+        <p class={value === null ? 'large none' : 'large'}>{fromDeformation}</p>
+        {value !== null && <p class="soft">from deformation{by === 'deformation' && ', as is recommended for the recording'}</p>}
+      </>
+    );
+  return (
+    <>
+      {by === 'none' && <p class="large none">No modulus is recommended for the recording</p>}
+      {by === 'elongated' && (
+        <>
+          <p class={elongated === null ? 'large none' : 'large'}>{elongated === null ? 'No modulus as of an elongated cell' : <Value value={elongated} error={error} />}</p>
+          {elongated !== null && <p class="soft">as of an elongated cell, as is recommended for the recording</p>}
+        </>
+      )}
+      <p class="soft from-deformation">
+        {fromDeformation}
+        {value !== null && ' from deformation'}
+      </p>
+    </>
+  );
+}
+
+function Modulus({ detail, item }: { detail: EventDetail; item: number }) {
+  const value = detail.young_modulus_kPa;
+  const recommended = recommendedOf(useStore(moduli)[item]);
   return (
     <div class="modulus">
-      {value !== null && Number.isFinite(value) ? (
-        <p class="large">
-          <span class="symbol">E</span> {withError(value, detail.standard_error_kPa)} <span class="unit">kPa</span>
-        </p>
-      ) : (
-        <p class="large none">No modulus: {detail.state}</p>
-      )}
+      <Headline detail={detail} by={recommended?.by ?? ''} />
       {detail.sentence && (
         <p class="soft">
           {value !== null && detail.state !== 'valid' && <strong>{detail.state}: </strong>}
@@ -151,7 +178,7 @@ function Detail({ of, detail }: Inspected) {
   return (
     <>
       <EventImage key={`${of.item}/${of.event}`} chosen={of} detail={detail} />
-      <Modulus detail={detail} />
+      <Modulus detail={detail} item={of.item} />
       {detail.outline && detail.model && <ResidualPlot outline={detail.outline} model={detail.model} pixel={detail.pixel_um ?? 0} />}
       {detail.case && (
         <button class="primary" onClick={() => openInCell(detail.case!)}>

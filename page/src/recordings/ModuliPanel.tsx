@@ -7,6 +7,7 @@ import { nameOf } from './features';
 import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
+import { inShort, recommendedOf, type Recommended } from './recommended';
 import { SettingFields } from './SettingFields';
 import { declared, fieldsOf, typing } from './settings';
 
@@ -70,14 +71,27 @@ function Run() {
   );
 }
 
+/** The number to report, or why there is none; why this one stands with all that the moduli rest on. */
+function ToReport({ of }: { of: Recommended }) {
+  const short = inShort(of);
+  return (
+    <div class="to-report">
+      <h3>Recommended: {short === 'none' ? 'no modulus' : `E ${/^[<>]/.test(short) ? short : `= ${short}`} kPa`}</h3>
+      {!Number.isFinite(of.value) && <p class="soft">{of.text}</p>}
+    </div>
+  );
+}
+
 export function ModuliPanel() {
   const number = useStore(focus);
   const run = useStore(moduli)[number ?? -1];
   useStore(items);
+  const recommended = recommendedOf(run);
   const fields = fieldsOf(useStore(declared));
   return (
     <section class="moduli" aria-label="Moduli">
       <h2>Young's moduli</h2>
+      {recommended && <ToReport of={recommended} />}
       <SettingFields of={fields.filter((setting) => setting.usual)} />
       <Replaced />
       <Run />

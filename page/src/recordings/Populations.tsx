@@ -1,4 +1,5 @@
 // Populations: what the recordings of each condition say about its cells, one dot a session, and whether conditions differ.
+import { Fragment } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Population, PopulationRecording } from '../api';
 import { significant } from '../draw/numbers';
@@ -7,6 +8,9 @@ import { useStore } from '../shell/store';
 import { items, recordings } from './model';
 import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from './population_runs';
 import { dotsOf, medianOf, sessionsOf } from './condition_dots';
+import { RecommendedMean } from './Conditions';
+import { moduli } from './moduli';
+import { recommendedOf } from './recommended';
 import { ticksOf, type Span } from './scale';
 import { useSize } from './use_size';
 
@@ -86,6 +90,9 @@ function interval(value: { lower: number | null; upper: number | null } | undefi
 }
 
 function Table({ found, quantity: { key, symbol, unit } }: { found: Population; quantity: Quantity }) {
+  const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
+  const runs = useStore(moduli);
+  const isModulus = key === 'young_modulus_kPa' && all.some(({ item }) => recommendedOf(runs[item]));
   return (
     <table class="conditions">
       <caption class="hidden">Populations by condition</caption>
@@ -101,12 +108,15 @@ function Table({ found, quantity: { key, symbol, unit } }: { found: Population; 
         {found.conditions.map((condition) => {
           const mean = medianOf(condition, key);
           return (
-            <tr key={condition.name}>
-              <th scope="row">{condition.name}</th>
-              <td>{mean ? `${significant(mean.value, 3)} ${unit}` : '–'}</td>
-              <td>{interval(mean)}</td>
-              <td />
-            </tr>
+            <Fragment key={condition.name}>
+              <tr>
+                <th scope="row">{condition.name}</th>
+                <td>{mean ? `${significant(mean.value, 3)} ${unit}` : '–'}</td>
+                <td>{interval(mean)}</td>
+                <td />
+              </tr>
+              {isModulus && <RecommendedMean of={all.filter((item) => item.condition === condition.name)} title="Recommended E" />}
+            </Fragment>
           );
         })}
         {found.comparisons.filter(({ quantity }) => quantity === key).map(({ control, treated, ratio, ratio_by_sampling_alone: sampling, p }) => (

@@ -4,12 +4,16 @@ import { significant } from '../draw/numbers';
 import { useStore } from '../shell/store';
 import { countWithin, statisticsOf } from './analysis';
 import { columnsVersion } from './columns';
-import { isComputed, labelOf, unitOf } from './features';
+import { isComputed, isYoungModulus, labelOf, unitOf } from './features';
 import { focus, gates, items, measured, recordings, titleOf } from './model';
 import { moduli } from './moduli';
 import { originOf } from './origin';
 import { FeatureOptions } from './PlotSelects';
+import { inShort, recommendedOf } from './recommended';
 import { counted } from './scale';
+
+/** Of median, mean, SD, SE and quartiles; all of them are under the pointer. */
+const digits = [4, 4, 3, 2, 3, 3];
 
 export function MeasuredSelect() {
   const feature = useStore(measured);
@@ -36,10 +40,21 @@ export function useOrigin(feature: string): string {
   return originOf(feature, shown, tables);
 }
 
+/** What is to be reported of the recording, whatever the gates of the page. */
+function RecommendedCell({ item }: { item: Item }) {
+  const recommended = recommendedOf(useStore(moduli)[item.item]);
+  return (
+    <td class="recommended" title={recommended?.text}>
+      {recommended ? inShort(recommended).replace(' ± ', '\n±\u00a0').replace(' ± ', '\u00a0±\u00a0') : '–'}
+    </td>
+  );
+}
+
 function Row({ item, feature }: { item: Item; feature: string }) {
   const active = useStore(gates);
   const focused = useStore(focus) === item.item;
   const found = statisticsOf(item, feature, active);
+  const condition = [item.condition, item.replicate].filter(Boolean).join(' / ') || '–';
   const within = countWithin(item, active);
   const numbers = found && [found.median, found.mean, found.standardDeviation, found.standardError, found.firstQuartile, found.thirdQuartile];
   return (
@@ -47,12 +62,15 @@ function Row({ item, feature }: { item: Item; feature: string }) {
       <th scope="row" title={item.name}>
         {titleOf(item)}
       </th>
-      <td class="text">{[item.condition, item.replicate].filter(Boolean).join(' / ') || '–'}</td>
+      <td class="text" title={condition}>
+        {condition}
+      </td>
+      {isYoungModulus(feature) && <RecommendedCell item={item} />}
       <td>{within === undefined ? '–' : counted(within)}</td>
       <td>{found ? counted(found.count) : '–'}</td>
       {(numbers ?? Array(6).fill(NaN)).map((value, k) => (
         <td key={k} title={Number.isFinite(value) ? value.toPrecision(10) : undefined}>
-          {significant(value, 4)}
+          {significant(value, digits[k])}
         </td>
       ))}
     </tr>
@@ -65,6 +83,8 @@ export function StatisticsTable() {
   const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
   const missing = isComputed(feature) && !shown.some((item) => item.features?.includes(feature));
   const unit = unitOf(feature);
+  const isModulus = isYoungModulus(feature);
+  const isGated = useStore(gates).some((gate) => gate.on);
   const origin = useOrigin(feature);
   return (
     <div class="statistics">
@@ -76,8 +96,9 @@ export function StatisticsTable() {
           <tr>
             <th scope="col">Recording</th>
             <th scope="col" class="text">Condition</th>
+            {isModulus && <th scope="col">Recommended E</th>}
             <th scope="col">Events</th>
-            <th scope="col">With value</th>
+            <th scope="col" class="two-words">With value</th>
             <th scope="col">Median</th>
             <th scope="col">Mean</th>
             <th scope="col">SD</th>
@@ -93,7 +114,10 @@ export function StatisticsTable() {
         </tbody>
       </table>
       <p class="soft">
-        {unit && `In ${unit}. `}SE is the standard error of the mean: SD divided by the root of the number of events.
+        {unit && `In ${unit}. `}
+        {isModulus && 'Recommended E: the number to report, with its errors by the scatter of the events and by what they share; the reason is under the pointer and at the left. '}
+        {isModulus && isGated && 'It is that of all events, without the gates. '}
+        SE is the standard error of the mean: SD divided by the root of the number of events.
       </p>
     </div>
   );

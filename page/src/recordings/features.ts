@@ -17,7 +17,7 @@ const known = new Map<string, [string, string]>(Object.entries({
   bright_sd: ['Brightness, sd', ''],
   circ: ['Circularity', ''],
   deform: ['Deformation', ''],
-  emodulus: ["Young's modulus E", 'kPa'],
+  emodulus: ['E from deformation', 'kPa'],
   emodulus_stored: ["Young's modulus stored in the file", 'kPa'],
   frame: ['Frame', ''],
   index: ['Index', ''],
@@ -59,6 +59,8 @@ export function labelOf(feature: string): string {
 }
 
 export const youngModulus = 'emodulus';
+/** Young's moduli of solids, from deformation or as of elongated cells: what is recommended is one of them. */
+export const isYoungModulus = (feature: string): boolean => feature === youngModulus || feature.startsWith('young_modulus_');
 /** A modulus that the recording brings along: of another program, or of a companion that is opened as a recording. */
 export const storedModulus = 'emodulus_stored';
 /** What the program computes with the moduli; all else is in the file. */

@@ -57,20 +57,22 @@ export interface ConditionSummary {
   mean: Interval;
 }
 
-/**
- * Replicates of a condition are its sample: the median of each replicate (recordings of one replicate together, each with
- * the same weight), then mean and 95 % interval.
- */
+/** Mean of each replicate, whose recordings have the same weight; a recording without one stands for itself. */
+export function repetitions(of: { replicate: string; value: number }[]): number[] {
+  const groups = new Map<string, number[]>();
+  of.forEach(({ replicate, value }, k) => {
+    const name = replicate === '' ? `recording ${k}` : replicate;
+    groups.set(name, [...(groups.get(name) ?? []), value]);
+  });
+  return [...groups.values()].map((values) => values.reduce((a, b) => a + b, 0) / values.length);
+}
+
+/** Replicates of a condition are its sample: the median of each, then mean and 95 % interval. */
 export function byCondition(found: { condition: string; replicate: string; median: number }[]): ConditionSummary[] {
   const conditions = [...new Set(found.map((each) => each.condition))].filter((name) => name !== '');
   return conditions.map((condition) => {
     const own = found.filter((each) => each.condition === condition && Number.isFinite(each.median));
-    const groups = new Map<string, number[]>();
-    own.forEach((each, k) => {
-      const name = each.replicate === '' ? `recording ${k}` : each.replicate;
-      groups.set(name, [...(groups.get(name) ?? []), each.median]);
-    });
-    const medians = [...groups.values()].map((values) => values.reduce((a, b) => a + b, 0) / values.length);
+    const medians = repetitions(own.map(({ replicate, median }) => ({ replicate, value: median })));
     return { condition, recordings: own.length, mean: meanInterval(medians) };
   });
 }
