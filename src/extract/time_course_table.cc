@@ -195,8 +195,8 @@ std::string population_text(const PopulationEstimate& p, std::size_t cells) {
         "their medians would not be those of all",
         p.cells, cells);
   return fmt::format(
-      "population ({} of {} cells): Young's modulus {}, viscosity {}; spread by a factor of {:.2f} and {:.2f}", p.cells,
-      cells, with_interval(p.young_modulus_kPa, "kPa"), with_interval(p.viscosity_Pas, "Pa s"),
+      "population: Young's modulus {}, viscosity {} ({} of {} cells); spread by a factor of {:.2f} and {:.2f}",
+      with_interval(p.young_modulus_kPa, "kPa"), with_interval(p.viscosity_Pas, "Pa s"), p.cells, cells,
       std::exp(p.modulus_spread), std::exp(p.viscosity_spread));
 }
 
