@@ -128,6 +128,11 @@ TEST_F(Synth, WithAnAxialTensionAloneTheCellsAreThoseOfTheTableOfElongatedOnesTh
   EXPECT_NEAR(modulus, 2, 2 * std::hypot(by_scatter, in_common)) << ended.out;
   EXPECT_LT(std::hypot(by_scatter, in_common), 0.05) << ended.out;
   EXPECT_NEAR(tension, 300, 15) << ended.out;
+  EXPECT_NE(
+      ended.out.find("made by rheocyte synth from neo-Hookean solids in the square channel under an axial tension; "
+                     "the table of elongated cells fits."),
+      std::string::npos)
+      << ended.out;
 }
 
 TEST_F(Synth, CellsThatAreLongAtRestNeedATableOfSuchCells) {
