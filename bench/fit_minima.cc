@@ -29,7 +29,7 @@ class Cells {
 
   /// How much chi squared is above the least one that another start finds.
   double excess(const BulkCortexFit& fit, CellCoordinates cell, bool free_tension) {
-    MeasuredShape shape{fit.shape_of(cell, flow_), errors_.of(cell)};
+    MeasuredShape shape{fit.shape_of(cell, flow_), errors_.of(cell, CellRandom(1, engine_(), Purpose::picture))};
     shape.errors.bias.setZero();
     ShapeVector noise;
     for (double& number : noise) number = normal_(engine_);

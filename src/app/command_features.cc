@@ -10,6 +10,7 @@
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
 #include "extract/features_recording.h"
+#include "extract/plausibility.h"
 #include "extract/recording_settings.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -40,6 +41,7 @@ class FeaturesJob {
     if (!options_.batch.quiet)
       print(fmt::format("{}: {} features of {} of {} events, see {}\n", name, summary.features, summary.with_outline,
                         summary.events, place_for(task).string()));
+    if (summary.cut > 0 && !options_.batch.quiet) tell(fmt::format("{}: {}", name, cut_text(summary.cut)));
     if (summary.with_outline == 0) tell(fmt::format("{}: no event has an outline.", name));
     return summary.with_outline > 0;
   }

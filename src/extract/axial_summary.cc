@@ -11,6 +11,9 @@ namespace rheocyte {
 
 namespace {
 
+/// Chi squared over two degrees of freedom that one recording of a hundred exceeds.
+constexpr double misfit_by_chance = 4.6;
+
 /// Its error is that of what it is computed from.
 std::string wall_text(double stress_Pa) {
   return fmt::format(
@@ -28,16 +31,17 @@ std::vector<std::string> tension_lines(const AxialSummary& s) {
     return {fmt::format("axial tension: {:.4g} Pa as given{}", value,
                         std::isfinite(wall) ? fmt::format(", {:.3g} {}", value / wall, wall_text(wall)) : "")};
   if (!s.common.is_found())
-    return {
-        fmt::format("axial tension: not found, because only {} events have the shape of a cell of the table, and "
-                    "it takes {}; each cell has the one that fits it best, or give --axial-tension-Pa",
-                    cells, CommonTension::min_cells)};
+    return {fmt::format(
+        "axial tension: not found, because {}; each cell has the one that fits it best, or give --axial-tension-Pa",
+        cells < fewest_cells_of_population
+            ? fmt::format("only {} events have an outline, and it takes {}", cells, fewest_cells_of_population)
+            : fmt::format("no population of the table's cells has the outlines of these {} events", cells))};
   std::string text = fmt::format(
       "axial tension: {:.4g} Pa (90 % interval {:.4g} to {:.4g}) from {} cells, {:.3g} ({:.3g} to {:.3g}) {}", value,
       lower, upper, cells, value / wall, lower / wall, upper / wall, wall_text(wall));
   if (lower <= 0 && upper >= 0) text += "; none within its error";
-  if (misfit > 2)
-    text += fmt::format("; the shapes differ from those of the model by {:.2g} times their errors", std::sqrt(misfit));
+  if (misfit > misfit_by_chance)
+    text += fmt::format("; the mean shape differs from that of the model by {:.2g} times its error", std::sqrt(misfit));
   return {text};
 }
 

@@ -37,13 +37,6 @@ MeasuredCell cell_of(const PopulationEvents& events, std::size_t i) {
   return cell;
 }
 
-ValueGate area_gate(const PopulationEvents& events) {
-  ValueGate gate;
-  if (events.least_area_um2 > 0) gate.least = std::log(events.least_area_um2);
-  if (std::isfinite(events.greatest_area_um2)) gate.greatest = std::log(events.greatest_area_um2);
-  return gate;
-}
-
 struct QuantityOfLaw {
   PopulationQuantity quantity;
   double CombinedLogs::*log;
@@ -254,7 +247,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   combined.wall_stress_Pa = r.wall_stress_Pa();
   const SeenPopulation seen{.sight = {events.flow, combined.section, table_.section_error_factor()},
                             .pixel_size_um = events.pixel_size_um,
-                            .log_area = area_gate(events),
+                            .log_area = log_area_gate(events.least_area_um2, events.greatest_area_um2),
                             .outline_noise = {.deviation = outline_noise_um_}};
   combined.found = fit_combined_population(moduli_, seen, cells, goes_on);
   const MomentFit& fit = combined.found.fit;

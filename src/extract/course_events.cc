@@ -12,6 +12,7 @@
 #include "case/user_error.h"
 #include "extract/event_pass.h"
 #include "extract/outlined_events.h"
+#include "extract/plausibility.h"
 #include "measurement/metadata.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
@@ -49,13 +50,17 @@ class CourseReader {
     for (std::size_t i = 0; i < count; ++i) {
       if (!events_.is_inside(i) || !std::isfinite(x[i]) || !std::isfinite(viscosity[i])) continue;
       CourseEvent event{double(first + i + 1), x[i], y[i], time[i]};
-      if (!measure(events_.shape(first + i), event)) continue;
+      if (!measure(events_.shape(first + i), event)) {
+        cut_ += events_.is_cut(first + i);
+        continue;
+      }
       result_.events.push_back(event);
       viscosities_.push_back(viscosity[i]);
     }
   }
 
   CourseEvents result() {
+    if (cut_ > 0) result_.warnings.push_back(cut_text(cut_));
     if (result_.events.empty())
       refuse_path(recording_.file(), "has no event with an outline, a place and a viscosity.");
     result_.flow = events_.settings().conditions.flow;
@@ -84,6 +89,7 @@ class CourseReader {
   const Recording& recording_;
   OutlinedEvents events_;
   std::vector<double> viscosities_;
+  std::size_t cut_ = 0;
   CourseEvents result_;
 };
 

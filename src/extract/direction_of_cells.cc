@@ -22,7 +22,7 @@ int direction_of_cells(EventOutlines& outlines, double sign) {
     const std::size_t first = piece * events / pieces, last = std::min(first + at_a_time, events);
     for (std::size_t event = first; event < last; ++event) {
       const PixelContour contour = outlines.outline(event);
-      if (contour.size() < fewest_outline_points) continue;
+      if (contour.size() < fewest_outline_points || outlines.is_cut(contour)) continue;
       const HullAsymmetry hull = hull_asymmetry(measurer.find_hull(contour));
       const double c = hull.mode_3;
       if (!(std::abs(c) < 0.3) || hull.inertia_ratio() > min_inertia_ratio_of_red_cells)

@@ -15,7 +15,7 @@ std::string meaning_of_states() {
   std::string text = "state of emodulus:";
   for (std::size_t k = 0; k < states_by_deformation().size(); ++k)
     text += fmt::format("{} {} {}", k == 0 ? "" : ",", k, states_by_deformation()[k]);
-  return text;
+  return text + fmt::format(", {} {}", int(ModulusState::cut), name_of(ModulusState::cut));
 }
 
 std::string label_of(std::string_view tilt) {

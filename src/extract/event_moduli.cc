@@ -23,10 +23,6 @@ bool has_free_tension(const ModuliOptions& options, const ModuliTable& table) {
   return options.fit_tension || table.between.is_elongated();
 }
 
-/// Of modes of a table between its branches, beside which the noise of one picture is large, but not that of means
-/// (docs/verification.md, sec. 7).
-constexpr double error_of_table = 1e-3;
-
 bool is_neo_hookean(const Cell& cell) {
   return cell.bulk.law == BulkLaw::neo_hookean &&
          (cell.cortex.law == CortexLaw::neo_hookean || cell.cortex.law == CortexLaw::neo_hookean_reference);
@@ -98,40 +94,14 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
   return SeenCell{seen->shape, measured.flow, measured.cells};
 }
 
-Eigen::VectorXd EventModuli::bend_of_means(std::span<const MeasuredCell> cells,
-                                           const std::function<void()>& goes_on) const {
-  if (cells.empty()) return {};
-  const SeenPopulation seen{.sight = sight(median_of(cells).flow),
-                            .pixel_size_um = pixel_size_um_,
-                            .leaves_out_other_sizes = false,
-                            .outline_noise = outline_noise_};
-  const CombinedPopulation population = fit_combined_population(moduli_, seen, cells, goes_on);
-  return population.fit.is_found ? population.bend : Eigen::VectorXd();
-}
-
-CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells,
+CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells, const ValueGate& log_area,
                                           const std::function<void()>& goes_on) const {
-  std::vector<SeenCell> groups;
-  const Eigen::VectorXd bend = bend_of_means(cells, goes_on);
-  for (MeasuredCell& group : means_by_size(cells)) {
-    goes_on();
-    for (Eigen::Index k = 0; k < bend.size(); ++k) group.shape(moduli_.features()[std::size_t(k)]) -= bend(k);
-    const auto seen = seen_cell(group, double(group.cells));
-    if (!seen) continue;
-    groups.push_back(*seen);
-    groups.back().shape.errors.covariance.diagonal().array() += error_of_table * error_of_table;
-  }
-  CommonTension found = rheocyte::common_tension(moduli_, groups, goes_on);
-  if (found.is_found() && section_ == Section::square) found.widen(section_error_of_tension_Pa(cells));
-  return found;
-}
-
-double EventModuli::section_error_of_tension_Pa(std::span<const MeasuredCell> cells) const {
-  constexpr double so_many_that_pixels_do_not_count = 1e6;
-  const auto seen = seen_cell(median_of(cells), so_many_that_pixels_do_not_count);
-  if (!seen) return 0;
-  const double error_Pa = moduli_.fit(seen->shape, seen->flow, AxialTension::unknown()).axial_tension_error_Pa;
-  return std::isfinite(error_Pa) ? error_Pa : 0;
+  if (cells.empty()) return {};
+  const ChannelFlow flow = median_of(cells).flow;
+  const SeenPopulation seen{
+      .sight = sight(flow), .pixel_size_um = pixel_size_um_, .log_area = log_area, .outline_noise = outline_noise_};
+  return rheocyte::common_tension(fit_combined_population(moduli_, seen, cells, goes_on), cells.size(),
+                                  wall_shear_stress_Pa(flow));
 }
 
 CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {

@@ -4,7 +4,6 @@
 #include "extract/moduli_summary.h"
 #include "extract/square_section.h"
 #include "infer/bulk_cortex_fit.h"
-#include "infer/combined_population.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
@@ -47,8 +46,9 @@ class EventModuli {
   ShapeErrors errors_in_picture(const CellCoordinates& cell) const { return pixels_.at(cell); }
   void know_tension(const AxialTension& tension) { tension_ = tension; }
 
-  /// Of some cells, in pixels. `goes_on` is called from group to group.
-  CommonTension common_tension(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
+  /// Of the cells in pixels whose measured ln of the area such a gate passes. `goes_on` is called from step to step.
+  CommonTension common_tension(std::span<const MeasuredCell> cells, const ValueGate& log_area,
+                               const std::function<void()>& goes_on) const;
   /// With what is known of the tension.
   MedianCell median_cell(std::span<const MeasuredCell> cells) const;
   /// What all cells of a recording have in common, in parts of each: of the median cell's moduli what is left of their
@@ -62,10 +62,6 @@ class EventModuli {
  private:
   /// With the noise of the mean of so many pictures. Nothing without a shape.
   std::optional<SeenCell> seen_cell(const MeasuredCell& measured, double pictures) const;
-  /// By how much the mean features of these cells are not those of their mean cell; empty if that is not known.
-  Eigen::VectorXd bend_of_means(std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) const;
-  /// Standard error that what the law of the square channel leaves makes of the tension of the median cell.
-  double section_error_of_tension_Pa(std::span<const MeasuredCell> cells) const;
 
   Sight sight(const ChannelFlow& flow) const { return {flow, section_, section_error_factor_}; }
 

@@ -56,8 +56,9 @@ std::optional<ElongatedBy> EventShapes::elongated_by() const {
 }
 
 HullAsymmetry EventShapes::asymmetry(const PixelContour& contour, ContourFeatures* measured) {
-  if (measured) *measured = measurer_.measure(contour, measured_pixel_um_);
-  if (contour.size() < fewest_outline_points) return {};
+  const bool is_cut = outlines_->is_cut(contour);
+  if (measured) *measured = measurer_.measure(is_cut ? PixelContour() : contour, measured_pixel_um_);
+  if (contour.size() < fewest_outline_points || is_cut) return {};
   return hull_asymmetry(measured ? measurer_.hull() : measurer_.find_hull(contour));
 }
 
@@ -66,13 +67,14 @@ void EventShapes::read_outlines(std::size_t first, ShapeColumns& columns) {
   const bool stored = inertia_ratio_from_ == stored_ratio, has_y = recording_.has_scalar("pos_y");
   outlines_->each(first, columns.mode_3.size(), [&](std::size_t event, const PixelContour& contour) {
     const std::size_t i = event - first;
+    columns.is_cut[i] = outlines_->is_cut(contour);
     const HullAsymmetry hull = asymmetry(contour, measured_pixel_um_ > 0 ? &columns.outlines[i] : nullptr);
     columns.mode_2[i] = hull.mode_2;
     columns.mode_3[i] = direction * hull.mode_3;
     columns.mode_4[i] = hull.mode_4;
     columns.mode_5[i] = direction * hull.mode_5;
     columns.tilt[i] = contour_tilt(contour, measurer_.hull(), hull.sine_modes, direction, outlines_->picture());
-    if (!stored) columns.inertia_ratio[i] = hull.inertia_ratio();
+    if (!stored || columns.is_cut[i]) columns.inertia_ratio[i] = hull.inertia_ratio();
     if (!has_y)
       columns.y_um[i] =
           std::isfinite(hull.mode_3) ? conditions_.pixel_size_um * measurer_.hull().moments().y : no_value;
@@ -114,6 +116,7 @@ void EventShapes::compute(std::size_t first, const MeasuredEvents& events, Shape
   if (outlines_) {
     for (auto* column : {&c.mode_2, &c.mode_3, &c.mode_4, &c.mode_5, &c.y_um}) column->resize(count);
     c.tilt.resize(count);
+    c.is_cut.resize(count);
     if (measured_pixel_um_ > 0) c.outlines.resize(count);
     read_outlines(first, c);
   }

@@ -20,6 +20,7 @@ struct ShapeColumns {
   std::vector<double> mode_4, mode_5, y_um;  ///< likewise; y is pos_y, or that of the outline where it is not stored
   std::vector<double> mode_4_excess, mode_5_excess;  ///< beyond those of the elongated solid; empty without one
   std::vector<OutlineTilt> tilt;  ///< likewise; NaN of outlines that are cut by the border or too small
+  std::vector<char> is_cut;       ///< by the edge of the picture: no shape is known; empty without contours and masks
   std::vector<ShapeExcess> excess;
   ElongationValues elongation;            ///< empty without a table of elongated cells
   std::vector<ContourFeatures> outlines;  ///< empty unless measure_outlines() was called
@@ -63,7 +64,8 @@ class EventShapes {
  private:
   void read_outlines(std::size_t first, ShapeColumns& columns);
   void compare_with_solids(const MeasuredEvents& events, ShapeColumns& columns) const;
-  /// NaN where there is no cell. The features are told, too, if `measured` is given. The hull is that of the measurer.
+  /// NaN where there is no cell, or no whole one. The features are told, too, if `measured` is given. The hull is that
+  /// of the measurer.
   HullAsymmetry asymmetry(const PixelContour& contour, ContourFeatures* measured);
 
   const Recording& recording_;

@@ -13,6 +13,7 @@
 #include "extract/soft_ends.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
+#include "synth/virtual_recording.h"
 
 namespace rheocyte {
 
@@ -90,6 +91,8 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   add_inertia_error(moduli);
   if (table().is_rheocyte_table()) mark_unresolved(moduli);
   compute_shapes(first, events);
+  for (std::size_t i = 0; i < c.shapes.is_cut.size(); ++i)
+    if (c.shapes.is_cut[i]) leave_out(i, ModulusState::cut);
   if (!gates_.empty()) apply_gates(first);
   collect();
   const auto& s = c.shapes;
@@ -182,15 +185,34 @@ void Extraction::add_soft_ends(ExtractSummary& s) const {
         softest_modulus_kPa(*elongated, conditions, softer.elongated, s.mean_viscosity_mPas);
 }
 
+namespace {
+
+std::string_view words_of(std::optional<Elongation> elongation) {
+  if (!elongation) return "";
+  return *elongation == Elongation::by_tension ? " under an axial tension" : " that are longer than wide at rest";
+}
+
+bool has_cells(const ElongatedLiquid* table, const std::string& cells, Elongation elongation) {
+  if (!table) return false;
+  const ElongatedTable& content = table->solids().table();
+  return content.elongation() == elongation && content.origin().cells() == cells;
+}
+
+}  // namespace
+
 // What a virtual recording says of its cells, and which table has such ones.
 std::string Extraction::made_of() const {
   const auto cells = recording_.metadata().text(made_of_key);
   if (!cells) return {};
-  const std::string made = fmt::format("made by rheocyte synth from {}", one_line(*cells, 100)),
+  const double exponent = settings_.conditions.flow.exponent;
+  const auto elongation = elongation_of_cells(recording_.metadata());
+  const std::string made = fmt::format("made by rheocyte synth from {}{}", one_line(*cells, 100), words_of(elongation)),
                     used = table().origin().identifier;
-  if (*cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
-  for (const ModulusMap* const other : tables_.others(settings_.conditions.flow.exponent))
-    if (*cells == other->origin().cells())
+  if (elongation && has_cells(tables_.elongated(exponent), *cells, *elongation))
+    return made + "; the table of elongated cells fits.";
+  if (!elongation && *cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
+  for (const ModulusMap* const other : tables_.others(exponent))
+    if (!elongation && *cells == other->origin().cells())
       return fmt::format("{}; the table {} fits, the moduli given here are from {}.", made, other->origin().identifier,
                          used);
   return fmt::format("{}; no table that comes with the program has such cells, the moduli given here are from {}.",
@@ -288,13 +310,16 @@ void Extraction::apply_gates(std::size_t first) {
   Columns& c = columns_;
   c.inside.resize(c.states.size());
   gates_.apply(features_, first, c.inside);
-  for (std::size_t i = 0; i < c.inside.size(); ++i) {
-    if (c.inside[i]) continue;
-    c.modulus[i] = c.standard_error[i] = no_value;
-    c.states[i] = ModulusState::gated;
-    c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
-    if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i, ModulusState::gated);
-  }
+  for (std::size_t i = 0; i < c.inside.size(); ++i)
+    if (!c.inside[i]) leave_out(i, ModulusState::gated);
+}
+
+void Extraction::leave_out(std::size_t i, ModulusState why) {
+  Columns& c = columns_;
+  c.modulus[i] = c.standard_error[i] = no_value;
+  c.states[i] = why;
+  c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
+  if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i, why);
 }
 
 void Extraction::take_modulus(std::size_t i) {

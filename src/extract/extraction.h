@@ -70,6 +70,8 @@ class Extraction {
   void add_inertia_error(const Moduli& moduli);
   static void mark_unresolved(const Moduli& moduli);
   void apply_gates(std::size_t first);
+  /// Event `i` of the block has no modulus, for this reason.
+  void leave_out(std::size_t i, ModulusState why);
   void take_modulus(std::size_t i);
   void count_inertial(double viscosity_mPas);
   void compute_shapes(std::size_t first, const MeasuredEvents& events);

@@ -51,11 +51,15 @@ class OutlineReader {
         direction_(direction_of_cells(outlines_, 1)) {}
 
   int direction() const { return direction_; }
+  /// Of those read so far.
+  std::size_t cut() const { return cut_; }
 
   void read(std::size_t first, std::span<ContourFeatures> features, std::span<OutlineTilt> tilt) {
     outlines_.each(first, features.size(), [&](std::size_t event, const PixelContour& contour) {
       const std::size_t i = event - first;
-      features[i] = measurer_.measure(contour, pixel_size_um_);
+      const bool is_cut = outlines_.is_cut(contour);
+      cut_ += is_cut;
+      features[i] = measurer_.measure(is_cut ? PixelContour() : contour, pixel_size_um_);
       tilt[i] = {};
       if (!std::isfinite(features[i].area_um2)) return;
       tilt[i] = contour_tilt(contour, measurer_.hull(), direction_ < 0 ? -1 : 1, outlines_.picture());
@@ -66,6 +70,7 @@ class OutlineReader {
   EventOutlines outlines_;
   double pixel_size_um_;
   int direction_;
+  std::size_t cut_ = 0;
   ContourMeasurer measurer_;
 };
 
@@ -111,6 +116,7 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
         std::ranges::count_if(features, [](const ContourFeatures& f) { return std::isfinite(f.area_um2); }));
   });
   companion.close();
+  summary.cut = outlines.cut();
   return summary;
 }
 

@@ -12,6 +12,7 @@ namespace rheocyte {
 
 struct FeaturesSummary {
   std::size_t events = 0, with_outline = 0, features = 0;
+  std::size_t cut = 0;  ///< by the edge of the picture: they have no features
 };
 
 /// The companion of a recording while it is written; UserError if a file stands there that is not ours.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,9 +24,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t events_between_progress = 256;
-/// So many cells tell what those of a recording have in common; events are read in blocks from all over it.
-constexpr std::size_t wanted_for_survey = 200, survey_block = 16;
+constexpr std::size_t events_between_progress = 256, events_of_survey = 256;
 
 /// One recording on its way through the blocks.
 class Fits {
@@ -58,16 +54,18 @@ class Fits {
   /// of the common one.
   void survey(const Recording& recording, const ModuliOptions& options) {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
-    if (options.outline_noise_um) check_outlines(recording, cells, *options.outline_noise_um);
+    check_outlines(recording, cells);
     median_ = moduli_.median_cell(cells);
     survey_tension(cells);
     common_errors_ = moduli_.common_errors(cells);
   }
 
-  static void check_outlines(const Recording& recording, std::span<const MeasuredCell> cells, double noise_um) {
+  void check_outlines(const Recording& recording, std::span<const MeasuredCell> cells) const {
     if (cells.empty()) return;
-    const double log_area = median_of(cells).shape(int(ShapeFeature::area_um2));
-    check_outline_noise(recording.file(), noise_um, std::exp(log_area / 2) * std::numbers::inv_sqrtpi);
+    std::vector<double> modes_7;
+    for (const MeasuredCell& cell : cells) modes_7.push_back(cell.shape(feature_of_mode(7)));
+    check_outline_noise(recording.file(), outline_noise_um_, events_.settings().pixel_size_um,
+                        {median_of(cells).shape, modes_7});
   }
 
   void survey_tension(const std::vector<MeasuredCell>& cells) {
@@ -76,7 +74,8 @@ class Fits {
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
     axial_.wall_stress_Pa = median_of(wall_stresses);
     if (axial_.is_given) return;
-    axial_.common = moduli_.common_tension(cells, goes_on_);
+    const auto area_um2 = events_.gates().limits_of("area_um");
+    axial_.common = moduli_.common_tension(cells, log_area_gate(area_um2.min, area_um2.max), goes_on_);
     moduli_.know_tension(axial_.common.tension());
   }
 
@@ -120,6 +119,8 @@ class Fits {
         });
     fits.run(threads_);
     for (std::size_t i = 0; i < count; ++i) {
+      if (estimates_[i].status == ModuliStatus::no_data && events_.is_cut(first + i))
+        estimates_[i].status = ModuliStatus::cut;
       tally_.take(estimates_[i]);
       if (axial_.is_of_elongated_cells && has_cell(estimates_[i])) {
         const CellCoordinates& cell = estimates_[i].cell;
@@ -146,6 +147,7 @@ class Fits {
     s.warnings.insert(s.warnings.end(), settings.warnings.begin(), settings.warnings.end());
     if (const auto outside = events_.outside_temperature())
       s.warnings.push_back(settings.outside_temperature_text(outside));
+    if (const auto cut = s.counts[std::size_t(ModuliStatus::cut)]) s.warnings.push_back(cut_text(cut));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
     if (is_square()) {
       s.warnings.push_back(section_text());
@@ -171,15 +173,13 @@ class Fits {
     return e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart;
   }
 
-  /// Of blocks far from each other, until they are enough.
+  /// All within the gates, so that nothing depends on their order.
   std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
     OutlinedEvents events(recording, options.measuring, use_of_outlines);
     events.turn(direction_);
-    const std::size_t blocks = (recording.events() + survey_block - 1) / survey_block;
     std::vector<MeasuredCell> cells;
-    for (std::size_t k = 0; k < blocks && cells.size() < wanted_for_survey; ++k) {
-      const std::size_t first = far_apart(k, blocks) * survey_block;
-      const std::size_t count = std::min(survey_block, recording.events() - first);
+    for (std::size_t first = 0; first < recording.events(); first += events_of_survey) {
+      const std::size_t count = std::min(events_of_survey, recording.events() - first);
       events.read(first, count);
       for (std::size_t i = 0; i < count; ++i) {
         if (!events.is_inside(i)) continue;
@@ -189,13 +189,6 @@ class Fits {
       }
     }
     return cells;
-  }
-
-  /// Each of `count` places once, neighbours in the order far from each other.
-  static std::size_t far_apart(std::size_t k, std::size_t count) {
-    std::size_t step = std::max<std::size_t>(1, std::size_t(0.618 * double(count)));
-    while (std::gcd(step, count) > 1) ++step;
-    return k * step % count;
   }
 
   std::string section_text() const {

@@ -40,8 +40,10 @@ class OutlinedEvents {
   int turn_downstream(double sign);
   /// The same where the direction is known already.
   void turn(int direction) { is_mirrored_ = direction < 0; }
-  /// Of any event; NaN where there is no cell. UserError if the data are damaged.
+  /// Of any event; NaN where there is no cell, or no whole one. UserError if the data are damaged.
   ShapeVector shape(std::size_t event);
+  /// Whether the edge of the picture cuts the cell off. UserError if the data are damaged.
+  bool is_cut(std::size_t event) { return outlines_.is_cut(event); }
 
  private:
   const Recording& recording_;

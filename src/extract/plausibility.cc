@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "infer/rendered_errors.h"
+#include "measurement/shape_in_pixels.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
 
 namespace {
 
+constexpr double deviations_in_90_percent = 3.29;  ///< of a normal distribution
 constexpr double rate_tolerance = 0.01, area_tolerance = 0.02;
 constexpr std::size_t events_looked_at = 4096;  // events
 
@@ -49,6 +53,19 @@ void add_pixel(const Recording& recording, double pixel_size_um, std::vector<std
 
 }  // namespace
 
+namespace {
+
+/// Standard deviation over pictures of one cell with such errors of the outline.
+double scatter_of_mode_7(const ShapeVector& cell, double noise_um, double pixel_size_um) {
+  constexpr int pictures = 400, mode_7 = feature_of_mode(7);
+  CellRandom random(1, 0, Purpose::picture);
+  const ShapeErrors errors =
+      errors_in_pixels(outline_of(cell), pixel_size_um, pictures, random, OutlineNoise{.deviation = noise_um});
+  return std::sqrt(errors.covariance(mode_7, mode_7));
+}
+
+}  // namespace
+
 void check_viscosity(double mPas, const std::string& name) {
   if (mPas >= min_viscosity_mPas) return;
   throw UserError(
@@ -57,12 +74,24 @@ void check_viscosity(double mPas, const std::string& name) {
                   name, mPas, mPas, 1000 * mPas));
 }
 
-void check_outline_noise(const std::filesystem::path& recording, double noise_um, double radius_um) {
+void check_outline_noise(const std::filesystem::path& recording, double noise_um, double pixel_size_um,
+                         const SeenOutlines& outlines) {
   constexpr double most_of_radius = 0.1;  // displacements that are not small against the radius are no noise
-  if (noise_um <= most_of_radius * radius_um) return;
-  refuse_path(recording, fmt::format("its outlines have a median radius of {:.3g} um, and --outline-noise-um {:g} is "
-                                     "more than a tenth of it; give what beads tell, in um.",
-                                     radius_um, noise_um));
+  constexpr double most_of_scatter = 1.5;
+  constexpr std::size_t fewest_that_scatter = 20;
+  const double radius_um = std::exp(outlines.median(int(ShapeFeature::area_um2)) / 2) * std::numbers::inv_sqrtpi;
+  if (noise_um > most_of_radius * radius_um)
+    refuse_path(recording, fmt::format("its outlines have a median radius of {:.3g} um, and --outline-noise-um {:g} is "
+                                       "more than a tenth of it; give what beads tell, in um.",
+                                       radius_um, noise_um));
+  if (noise_um == 0 || outlines.modes_7.size() < fewest_that_scatter) return;
+  const double scatter = central_width(outlines.modes_7) / deviations_in_90_percent;
+  const double of_noise = scatter_of_mode_7(outlines.median, noise_um, pixel_size_um);
+  if (of_noise > most_of_scatter * scatter)
+    refuse_path(recording, fmt::format("--outline-noise-um {:g} is too large: it would make the mode c7 of equal cells "
+                                       "scatter by {:.2g}, and that of the events scatters by {:.2g}; give what beads "
+                                       "tell, in um.",
+                                       noise_um, of_noise, scatter));
 }
 
 std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um) {
@@ -70,6 +99,15 @@ std::vector<std::string> contradictions(const Recording& recording, double rate_
   if (rate_ul_s > 0) add_rate(recording, rate_ul_s, sentences);
   if (pixel_size_um > 0) add_pixel(recording, pixel_size_um, sentences);
   return sentences;
+}
+
+std::string cut_text(std::size_t events) {
+  return events == 1
+             ? "1 event is left out, because its outline touches the edge of the picture: the cell is cut off."
+             : fmt::format(
+                   "{} events are left out, because their outlines touch the edge of the picture: the cells are "
+                   "cut off.",
+                   events);
 }
 
 std::string inertia_text(std::size_t events, double greatest) {

@@ -1,10 +1,12 @@
 // What no laboratory measures, and what in a recording contradicts itself: mostly units that were mistaken.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "measurement/recording.h"
+#include "shape/outline_shape.h"
 
 namespace rheocyte {
 
@@ -26,8 +28,15 @@ inline bool is_red_cell(double inertia_ratio, double area_um2) {
 /// Water has 0.28 where it boils.
 inline constexpr double min_viscosity_mPas = 0.2;
 
-/// UserError of a recording whose outlines are so small (median radius) that errors of theirs are no noise any more.
-void check_outline_noise(const std::filesystem::path& recording, double noise_um, double radius_um);
+/// The outlines of a recording: the median of each feature, and c7 of all events, if it is known.
+struct SeenOutlines {
+  ShapeVector median;
+  std::span<const double> modes_7;
+};
+/// UserError of a recording whose outlines are so small that such errors of theirs are no noise any more, or whose c7
+/// scatters by much less than these errors alone would make it.
+void check_outline_noise(const std::filesystem::path& recording, double noise_um, double pixel_size_um,
+                         const SeenOutlines& outlines);
 
 /// UserError if a viscosity (mPa s) that somebody has given is less than that of any liquid that cells live in. `name`
 /// stands for its place in the message.
@@ -36,6 +45,9 @@ void check_viscosity(double mPas, const std::string& name);
 /// Sentences, without the file's name, about flow rates that do not add up and areas that contradict the pixel size.
 /// `rate_ul_s` and `pixel_size_um` are those that are used; 0 if they need no check.
 std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um);
+
+/// The sentence about so many events whose outlines the edge of the picture cuts.
+std::string cut_text(std::size_t events);
 
 /// The sentence about events whose Reynolds number is too great; `greatest` of them all.
 std::string inertia_text(std::size_t events, double greatest);

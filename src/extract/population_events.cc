@@ -7,7 +7,9 @@
 #include "extract/direction_of_cells.h"
 #include "extract/event_pass.h"
 #include "extract/outlined_events.h"
+#include "extract/plausibility.h"
 #include "measurement/metadata.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 namespace {
@@ -67,6 +69,7 @@ class OutlinedReader {
         continue;
       }
       const ShapeVector shape = events_.shape(first + i);
+      cut_ += !shape.allFinite() && events_.is_cut(first + i);
       Seen seen;
       seen_at(seen, SeenMeasure::area_um2) = std::exp(shape(int(ShapeFeature::area_um2)));
       seen_at(seen, SeenMeasure::deformation) = shape(int(ShapeFeature::deformation));
@@ -78,11 +81,13 @@ class OutlinedReader {
   }
 
   std::size_t outside_temperature() const { return events_.outside_temperature(); }
+  std::size_t cut() const { return cut_; }
   const ExtractSettings& settings() const { return events_.settings(); }
 
  private:
   PopulationEvents& all_;
   OutlinedEvents events_;
+  std::size_t cut_ = 0;
 };
 
 /// By stored features.
@@ -121,6 +126,7 @@ class StoredReader {
   }
 
   std::size_t outside_temperature() const { return outside_; }
+  static std::size_t cut() { return 0; }
   const ExtractSettings& settings() const { return settings_; }
 
  private:
@@ -145,10 +151,21 @@ PopulationEvents events_by(Recording& recording, const MeasuringOptions& options
   pass.in_blocks(population_block, [&](std::size_t first, std::size_t count) { reader.take(first, count); });
   if (const auto outside = reader.outside_temperature())
     all.warnings.push_back(reader.settings().outside_temperature_text(outside));
+  if (reader.cut() > 0) all.warnings.push_back(cut_text(reader.cut()));
   return all;
 }
 
 }  // namespace
+
+ShapeVector PopulationEvents::median_shape() const {
+  ShapeVector median = ShapeVector::Zero();
+  median(int(ShapeFeature::area_um2)) = std::log(median_of(of(SeenMeasure::area_um2)));
+  median(int(ShapeFeature::deformation)) = median_of(of(SeenMeasure::deformation));
+  median(int(ShapeFeature::moment_ratio)) = std::pow(median_of(of(SeenMeasure::inertia_ratio)), -2);
+  for (int k = 0; k < modes_seen && has_outlines; ++k)
+    median(int(ShapeFeature::first_mode) + k) = median_of(seen[std::size_t(int(SeenMeasure::mode_2) + k)]);
+  return median;
+}
 
 PopulationEvents read_population_events(const std::filesystem::path& file, const MeasuringOptions& options,
                                         StiffnessMeasure by, const TellProgress& report_progress) {

@@ -10,6 +10,7 @@
 #include "extract/options.h"
 #include "infer/solid_maps.h"
 #include "numeric/no_value.h"
+#include "shape/outline_shape.h"
 #include "store/progress.h"
 
 namespace rheocyte {
@@ -45,6 +46,8 @@ struct PopulationEvents {
   std::string made_of;  ///< of virtual cells (made_of_key)
 
   std::size_t events() const { return number.size(); }
+  /// Of at least one event; what is not measured is 0.
+  ShapeVector median_shape() const;
   const std::vector<double>& of(SeenMeasure m) const { return seen[std::size_t(m)]; }
 
   /// For store/bytes.h.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -287,8 +286,8 @@ const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_
     refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
                                                   : "has no event inside the gates (" + events.gates + ").");
   check_new(r, events);
-  check_outline_noise(r.recording, options_.outline_noise_um.value_or(0),
-                      std::sqrt(median_of(events.of(SeenMeasure::area_um2)) / std::numbers::pi));
+  check_outline_noise(r.recording, options_.outline_noise_um.value_or(0), events.pixel_size_um,
+                      {events.median_shape(), events.of(SeenMeasure::mode_7)});
   model_->fit(events, r, goes_on);
   return recordings_.emplace_back(std::move(r));
 }

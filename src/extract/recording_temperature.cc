@@ -71,7 +71,7 @@ class Search {
     const std::string& wish = options_.temperature;
     if (!wish.empty() && wish != "feature" && wish != "metadata") return found(TemperatureSource::given, as_given());
     if (wish == "feature" && !events_)
-      refuse("has no temperature of each event; give --temperature in degrees Celsius.");
+      refuse("has no temperature of each event; leave --temperature out, or give it in degrees Celsius.");
     if (wish != "metadata" && events_ && take_events()) {
       const double others = of_single_events();
       return {TemperatureSource::feature, events_->median, others, notes_};
@@ -81,9 +81,8 @@ class Search {
     if (!options_.temperature_if_missing.empty()) return found(TemperatureSource::given, if_missing());
     std::string sentences;
     for (const auto& note : notes_) sentences += note + " ";
-    refuse(sentences.empty() ? "holds no temperature, on which the viscosity depends; give --temperature in degrees "
-                               "Celsius, or the viscosity with --viscosity-mPas."
-                             : sentences + "Give --temperature in degrees Celsius.");
+    refuse((sentences.empty() ? "contains no temperature, on which the viscosity depends. " : sentences) +
+           "Give it in degrees Celsius (--temperature-if-missing), or the viscosity (--viscosity-mPas).");
   }
 
  private:

@@ -61,6 +61,7 @@ std::string_view name_of(ModuliStatus status) {
     case ModuliStatus::outside_table: return "outside-table";
     case ModuliStatus::poor_fit: return "poor-fit";
     case ModuliStatus::gated: return "gated";
+    case ModuliStatus::cut: return "cut-by-the-edge";
     case ModuliStatus::count: break;
   }
   return "";
@@ -76,6 +77,7 @@ std::string sentence(const ModuliEstimate& e) {
     case ModuliStatus::no_data: return "There is no shape, or no error of it.";
     case ModuliStatus::outside_table: return "No cell of the table has such a shape.";
     case ModuliStatus::gated: return "The event lies outside the limits that were set.";
+    case ModuliStatus::cut: return "The outline touches the edge of the picture: it is not that of the whole cell.";
     case ModuliStatus::poor_fit:
       return fmt::format(
           "The nearest cell of the table differs from the shape by more than its errors "

@@ -25,6 +25,7 @@ enum class ModuliStatus {
   outside_table,   ///< no cell of the table has such a shape
   poor_fit,        ///< the nearest cell of the table differs from the shape by more than the errors allow
   gated,           ///< outside the limits that the user has set; nothing was fitted
+  cut,             ///< the outline touches the edge of the picture: it is not that of the whole cell
   count
 };
 inline constexpr int moduli_status_count = int(ModuliStatus::count);

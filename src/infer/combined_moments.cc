@@ -263,10 +263,6 @@ MomentSlopes CombinedMoments::moments(const VectorXd& parameters, bool with_slop
   return moments_of(seen(law, kept_nodes(*gate_, area(all)), moved, with_slopes), moved);
 }
 
-Moments CombinedMoments::moments_of_all(const VectorXd& parameters) const {
-  return moments_of(seen(CombinedLaw::of(parameters), nodes_, {}, false), {}).there;
-}
-
 double CombinedMoments::kept_fraction(const CombinedVector& parameters) const {
   if (!gate_) return 1;
   return fraction_within(*gate_, area(seen(CombinedLaw::of(parameters), nodes_, {}, false)));
@@ -288,12 +284,6 @@ ValueGate CombinedMoments::gate_of_table(const CombinedVector& parameters) const
 VectorXd CombinedMoments::by_log_viscosity(const CombinedVector& parameters) const {
   const SeenNodes all = seen(CombinedLaw::of(parameters), nodes_, {}, true);
   return -moments_of(all, {}).by_parameter[int(CombinedParameter::log_stiffness)].mean;
-}
-
-VectorXd CombinedMoments::bend(const CombinedVector& parameters) const {
-  const CombinedLaw law = CombinedLaw::of(parameters);
-  return moments_of_all(parameters).mean -
-         (shape(law, Numbers::Zero(), progress(law)).value + pixels_.middle.bias)(features());
 }
 
 CellCoordinates CombinedMoments::mean_cell(const CombinedVector& parameters) const {

@@ -42,8 +42,6 @@ class CombinedMoments : public MomentModel {
   /// Slopes of the mean features of all cells by ln of the viscosity of the liquid, whose tension goes with the wall's
   /// shear stress.
   Eigen::VectorXd by_log_viscosity(const CombinedVector& parameters) const;
-  /// By how much the mean features of cells that differ are not those of the mean cell.
-  Eigen::VectorXd bend(const CombinedVector& parameters) const;
   /// The mean cell of a law, in the table.
   CellCoordinates mean_cell(const CombinedVector& parameters) const;
   /// What the table, and in the square channel the law that brings it there, leaves and all events have in common.
@@ -98,7 +96,6 @@ class CombinedMoments : public MomentModel {
   Eigen::Matrix<double, varying, varying> by_place(const CombinedLaw& law) const;
 
   MomentSlopes moments(const Eigen::VectorXd& parameters, bool with_slopes) const;
-  Moments moments_of_all(const Eigen::VectorXd& parameters) const;
   static MomentSlopes moments_of(const SeenNodes& seen, const NodeSlopes& moved);
   SeenNodes seen(const CombinedLaw& law, const NormalNodes& nodes, const NodeSlopes& moved, bool with_slopes) const;
   /// Of the measured features, by a standard deviation of the noise of the area.

@@ -1,6 +1,7 @@
 #include "infer/combined_population.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -14,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t pictures_of_event = 10, fewest_pictures = 10'000, most_pictures = 40'000, fewest_events = 20;
+constexpr std::size_t pictures_of_event = 10, fewest_pictures = 10'000, most_pictures = 40'000;
 constexpr std::size_t virtual_events = 5'000;
 constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 3, pictures_of_median = 2'000;
 
@@ -63,6 +64,13 @@ VectorXd missed(const MomentFit& fit, const VectorXd& residual) {
   return (residual.cwiseAbs() - 2 * error).cwiseMax(0);
 }
 
+std::array<double, feature_count + 1> numbers_of(const MeasuredCell& cell) {
+  std::array<double, feature_count + 1> numbers;
+  std::ranges::copy(cell.shape, numbers.begin());
+  numbers.back() = cell.flow.viscosity_mPas;
+  return numbers;
+}
+
 double log_area_of(const MeasuredCell& cell) { return cell.shape(int(ShapeFeature::area_um2)); }
 
 ValueGate within_both(const ValueGate& a, const ValueGate& b) {
@@ -82,10 +90,15 @@ class CombinedSearch {
         settings_(moment_settings(moduli.table(), goes_on)) {
     inside_.resize(cells.size());
     std::iota(inside_.begin(), inside_.end(), 0);
+    std::ranges::sort(inside_,
+                      [&](std::size_t a, std::size_t b) { return numbers_of(cells[a]) < numbers_of(cells[b]); });
   }
 
   CombinedPopulation find() {
-    if (!begin()) return std::move(found_);
+    if (!begin()) {
+      found_.fit.is_found = false;
+      return std::move(found_);
+    }
     settings_.most_turns = turns_of_round;
     for (int round = 0; round < rounds_of_pictures; ++round) {
       const std::size_t pictures = std::clamp(pictures_of_event * inside_.size(), fewest_pictures, most_pictures);
@@ -111,8 +124,8 @@ class CombinedSearch {
     settings_.most_turns = turns_of_beginning;
     if (std::isfinite(seen_.log_area.least) || std::isfinite(seen_.log_area.greatest)) take_gate(seen_.log_area);
     fit();
-    if (seen_.leaves_out_other_sizes) leave_out_other_sizes();
-    return inside_.size() >= fewest_events;
+    leave_out_other_sizes();
+    return inside_.size() >= fewest_cells_of_population;
   }
 
   void leave_out_other_sizes() {
@@ -147,7 +160,6 @@ class CombinedSearch {
   void tell() {
     found_.law = CombinedLaw::of(q_);
     found_.features = model_.features();
-    found_.bend = model_.bend(q_);
     found_.mean_cell = model_.mean_cell(q_);
     found_.residual = found_.fit.measured.mean - found_.fit.fitted.mean;
     found_.kept_fraction = model_.kept_fraction(q_);
@@ -166,12 +178,16 @@ class CombinedSearch {
   MeasuredCell median_;
   CombinedMoments model_;
   MomentSettings settings_;
-  std::vector<std::size_t> inside_;  ///< events that pass the gates
+  std::vector<std::size_t> inside_;  ///< events that pass the gates, in an order that what was measured tells
   CombinedVector q_;
   CombinedPopulation found_;
 };
 
 }  // namespace
+
+ValueGate log_area_gate(double least_um2, double greatest_um2) {
+  return {std::log(std::max(least_um2, 0.0)), std::log(greatest_um2)};
+}
 
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) {

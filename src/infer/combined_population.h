@@ -20,9 +20,7 @@ namespace rheocyte {
 struct SeenPopulation {
   Sight sight;  ///< the viscosity does not count
   double pixel_size_um = 0;
-  ValueGate log_area = {};  ///< which measured areas are recorded at all
-  /// Events of sizes that the table does not have are left out; else the law is that of all events as they are.
-  bool leaves_out_other_sizes = true;
+  ValueGate log_area = {};          ///< which measured areas are recorded at all
   OutlineNoise outline_noise = {};  ///< um
 };
 
@@ -33,7 +31,6 @@ struct CombinedPopulation {
   Eigen::MatrixXd common_covariance;
   std::vector<int> features;       ///< that were fitted, of ShapeFeature
   Eigen::VectorXd residual;        ///< of their means, measured - fitted
-  Eigen::VectorXd bend;            ///< of the law, see CombinedMoments
   CellCoordinates mean_cell;       ///< of the law, in the table, which may end before
   std::vector<ShapeVector> drawn;  ///< virtual events of the law, which pass the gates
   std::vector<bool> counts;        ///< by event: it passes the gates, and is no stranger
@@ -41,10 +38,16 @@ struct CombinedPopulation {
   double kept_fraction = 1;        ///< of the cells, by the gates
 };
 
+/// Of the ln of measured areas between limits, of which 0 and infinity are none.
+ValueGate log_area_gate(double least_um2, double greatest_um2);
+
+/// Fewer cells tell no population.
+inline constexpr std::size_t fewest_cells_of_population = 20;
+
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table
-/// are such gates, if that is wanted and its cells have the median area. Not found: no cell of the table is like the
-/// median one, or the events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the
-/// sight's in the viscosity alone.
+/// are such gates, if its cells have the median area. Not found: no cell of the table is like the median one, or the
+/// events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
+/// viscosity alone. The order of the cells does not change a digit.
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
                                            std::span<const MeasuredCell> cells, const std::function<void()>& goes_on);
 

@@ -27,8 +27,14 @@ std::array<double, mode_count> modes_of(const CombinedState& state) {
 }
 
 /// Random numbers of its own for each cell: what is left of the mean over the places is not the same for all cells of a
-/// recording. By seven digits, so that they do not depend on the last ones of a machine's logarithm.
-std::uint32_t number_of(double log_area) { return std::bit_cast<std::uint32_t>(float(log_area)); }
+/// recording. By what was measured of it, so that they do not depend on the other cells, and by seven digits, so that
+/// they do not depend on the last ones of a machine's logarithm.
+CellRandom random_of(const ShapeVector& measured) {
+  const auto bits = [&](ShapeFeature f) {
+    return std::uint64_t(std::bit_cast<std::uint32_t>(float(measured(int(f)))));
+  };
+  return {1, bits(ShapeFeature::area_um2) << 32U | bits(ShapeFeature::deformation), Purpose::picture};
+}
 
 /// Corners of the box lie beyond the table: the softest cell on the way there that it has, or the stiffest of all.
 CombinedState nearest_state(const CombinedInterpolation& table, CellCoordinates cell) {
@@ -64,12 +70,12 @@ RenderedErrors::RenderedErrors(const CombinedInterpolation& table, double pixel_
       if (n > 1) cell(axis) = node_place(axis, double(rest % n) / double(n - 1));
       rest /= n;
     }
-    errors_.push_back(rendered(nearest_state(table, cell), draws, number));
+    CellRandom random(1, number, Purpose::picture);
+    errors_.push_back(rendered(nearest_state(table, cell), draws, random));
   }
 }
 
-ShapeErrors RenderedErrors::rendered(const CombinedState& state, int draws, std::uint64_t number) const {
-  CellRandom random(1, number, Purpose::picture);
+ShapeErrors RenderedErrors::rendered(const CombinedState& state, int draws, CellRandom& random) const {
   const auto outline = outline_of_modes(modes_of(state), std::exp(state.value(log_area_row)), outline_points);
   return errors_in_pixels(outline, pixel_size_um_, draws, random, noise_um_);
 }
@@ -115,13 +121,12 @@ ShapeErrors RenderedErrors::at(const CellCoordinates& cell) const {
   return sum;
 }
 
-ShapeErrors RenderedErrors::of(const CellCoordinates& cell) const {
+ShapeErrors RenderedErrors::of(const CellCoordinates& cell, CellRandom random) const {
   const CombinedState state = table_.at(cell);
-  return state.inside ? rendered(state, draws_of_one_cell, number_of(state.value(log_area_row))) : at(cell);
+  return state.inside ? rendered(state, draws_of_one_cell, random) : at(cell);
 }
 
-ShapeErrors RenderedErrors::of_outline(const ShapeVector& shape) const {
-  CellRandom random(1, number_of(shape(int(ShapeFeature::area_um2))), Purpose::picture);
+ShapeErrors RenderedErrors::of_outline(const ShapeVector& shape, CellRandom random) const {
   return errors_in_pixels(outline_of(shape), pixel_size_um_, draws_of_mean, random, noise_um_);
 }
 
@@ -172,13 +177,14 @@ std::optional<SeenShape> seen_shape(const BulkCortexFit& moduli, const RenderedE
     if (!nearest) return {};
     cell = nearest->cell;
   }
-  ShapeErrors pixels = errors.of(cell);
+  const CellRandom random = random_of(measured);
+  ShapeErrors pixels = errors.of(cell, random);
   const double log_length = std::log(scale_factors(moduli.simulated(), sight.flow).length);
   // The mean of several pictures is nearly smooth itself, and need not have the shape of a cell of the table.
   for (int round = 0; round < rounds && pictures > 1; ++round) {
     ShapeVector smooth = measured - pixels.bias;
     smooth(int(ShapeFeature::area_um2)) -= 2 * log_length;
-    pixels = errors.of_outline(smooth);
+    pixels = errors.of_outline(smooth, random);
   }
   return seen_at(pixels, cell);
 }

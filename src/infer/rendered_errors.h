@@ -6,13 +6,13 @@
 // fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
 #pragma once
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "infer/bulk_cortex_fit.h"
 #include "infer/square_law.h"
 #include "measurement/outline_noise.h"
+#include "numeric/cell_random.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -29,16 +29,17 @@ class RenderedErrors {
 
   /// Between those: within a fifth of the noise of a picture.
   ShapeErrors at(const CellCoordinates& cell) const;
-  /// Of this very cell, which takes some milliseconds; of one outside the table as above.
-  ShapeErrors of(const CellCoordinates& cell) const;
+  /// Of this very cell, which takes some milliseconds, at places that these random numbers tell; of one outside the
+  /// table as above.
+  ShapeErrors of(const CellCoordinates& cell, CellRandom random) const;
   /// Of a smooth outline in the table's channel, which takes some milliseconds.
-  ShapeErrors of_outline(const ShapeVector& shape) const;
+  ShapeErrors of_outline(const ShapeVector& shape, CellRandom random) const;
   CellCoordinates middle() const { return (box_.least + box_.greatest) / 2; }
 
  private:
   using Nodes = std::array<int, coordinate_count>;
   static std::size_t count_of(const Nodes& nodes);
-  ShapeErrors rendered(const CombinedState& state, int draws, std::uint64_t number) const;
+  ShapeErrors rendered(const CombinedState& state, int draws, CellRandom& random) const;
 
   /// In which the errors are linear: pixels take a fraction of the third mode of elongated cells, not of its logarithm.
   double scale(int axis, double coordinate) const;

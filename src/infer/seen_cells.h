@@ -1,15 +1,14 @@
-// Cells of a recording as they were measured, and medians and means of several.
+// Cells of a recording as they were measured, and medians of several.
 #pragma once
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "case/channel_flow.h"
 #include "infer/bulk_cortex_fit.h"
 
 namespace rheocyte {
 
-/// The shape of a cell in pixels, or the median or mean of several.
+/// The shape of a cell in pixels, or the median of several.
 struct MeasuredCell {
   ShapeVector shape;
   ChannelFlow flow;
@@ -25,9 +24,5 @@ struct SeenCell {
 
 /// The median of each feature and of the viscosity. At least one cell (asserted).
 MeasuredCell median_of(std::span<const MeasuredCell> cells);
-
-/// Means, without strangers, of groups of equal count and of neighbouring sizes. The scatter of pixels hardly moves
-/// what is fitted to them, where it would move the mean of single fits: moduli depend on shapes in a bent way.
-std::vector<MeasuredCell> means_by_size(std::span<const MeasuredCell> cells);
 
 }  // namespace rheocyte

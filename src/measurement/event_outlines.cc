@@ -4,6 +4,7 @@
 #include <cassert>
 #include <span>
 
+#include "measurement/contour_tilt.h"
 #include "measurement/shape_in_pixels.h"
 #include "numeric/no_value.h"
 
@@ -77,10 +78,12 @@ void EventOutlines::each(std::size_t first, std::size_t count,
 }
 
 ShapeVector EventOutlines::features(std::size_t event) {
-  const PixelContour contour = outline(event);
-  if (contour.size() < fewest_outline_points) return ShapeVector::Constant(no_value);
+  const PixelContour& contour = contour_at_hand(event);
+  if (contour.size() < fewest_outline_points || is_cut(contour)) return ShapeVector::Constant(no_value);
   return shape_of_contour(contour, pixel_um_);
 }
+
+bool EventOutlines::is_cut(const PixelContour& contour) const { return rheocyte::is_cut(contour, picture_); }
 
 PixelContour EventOutlines::outline(std::size_t event) { return contour_at_hand(event); }
 

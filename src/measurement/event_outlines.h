@@ -19,8 +19,11 @@ class EventOutlines {
   /// The recording, which must outlive it, has contours or masks (asserted): see ShapeSource::has_outlines().
   EventOutlines(const Recording& recording, double pixel_um);
 
-  /// NaN where there is no cell. UserError if the data are damaged.
+  /// NaN where there is no cell, or no whole one. UserError if the data are damaged.
   ShapeVector features(std::size_t event);
+  /// Whether the edge of the picture cuts the cell off. UserError if the data are damaged.
+  bool is_cut(std::size_t event) { return is_cut(contour_at_hand(event)); }
+  bool is_cut(const PixelContour& contour) const;
   /// Empty where there is no cell. UserError if the data are damaged.
   PixelContour outline(std::size_t event);
   /// work(event, contour) for each of these events in their order, with what outline() returns: in another thread,

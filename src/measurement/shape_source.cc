@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 
@@ -18,6 +20,18 @@ std::string first_there(const Recording& recording, const std::string& feature, 
   if (recording.has_scalar(stand_in)) return stand_in;
   if (recording.has_contours()) return "contour";
   return recording.image_size("mask") ? "mask" : "";
+}
+
+/// UserError if most values are more than deformations and circularities can be.
+void refuse_per_cent(const Recording& recording, const std::string& feature, std::span<const double> values) {
+  const double greatest = feature == "circ" ? 2 : 1;  // circularities of few pixels may exceed 1
+  const auto impossible = std::ranges::count_if(values, [&](double value) { return value > greatest; });
+  if (impossible == 0 || 2 * std::size_t(impossible) < values.size()) return;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::erase_if(sorted, [](double value) { return std::isnan(value); });
+  refuse_path(recording.file(),
+              fmt::format("{} is {:.3g} at the median, and cannot exceed 1: is it in per cent? Store it as a fraction.",
+                          feature, median_of(sorted)));
 }
 
 bool from_outline(const std::string& source) { return source == "contour" || source == "mask"; }
@@ -62,6 +76,7 @@ void ShapeSource::read(std::size_t first, std::span<double> areas_um2, std::span
     std::ranges::transform(features_, deformations.begin(), &ContourFeatures::deformation);
   } else {
     recording_.read_scalar(deformation_from_, first, deformations);
+    refuse_per_cent(recording_, deformation_from_, deformations);
     if (deformation_from_ == "circ") make_deformations(deformations);
   }
 }

@@ -41,18 +41,20 @@ enum class NoShape {
   outside_sheets,
   outside_times,
   outside_tensions,
-  outside_aspects
+  outside_aspects,
+  outside_places
 };
 
-inline constexpr std::array<std::string_view, 9> names_of_missing_shapes{"too small",
-                                                                         "too large",
-                                                                         "too stiff",
-                                                                         "too soft",
-                                                                         "outside the picture",
-                                                                         "of a cortex or tension outside the table",
-                                                                         "of a viscosity outside the table",
-                                                                         "under an axial tension outside the table",
-                                                                         "of a shape at rest outside the table"};
+inline constexpr std::array<std::string_view, 10> names_of_missing_shapes{"too small",
+                                                                          "too large",
+                                                                          "too stiff",
+                                                                          "too soft",
+                                                                          "outside the picture",
+                                                                          "of a cortex or tension outside the table",
+                                                                          "of a viscosity outside the table",
+                                                                          "under an axial tension outside the table",
+                                                                          "of a shape at rest outside the table",
+                                                                          "at a place outside the table"};
 
 class CellShapes {
  public:

@@ -53,7 +53,7 @@ std::variant<CellShape, NoShape> CourseShapes::shape(const VirtualCell& cell) co
   const DynamicCell there{cell.radius_um / scale.length, modulus_kPa, 3 * viscosity_Pas / modulus_kPa};
   if (const auto reason = why_not(table_.spec(), there)) return *reason;
   const double place = cell.place_um / scale.length;
-  if (!table_.has_place(place)) return NoShape::outside_picture;
+  if (!table_.has_place(place)) return NoShape::outside_places;
   const auto value = [&](CourseMeasure measure) { return table_.value(measure, there, place); };
   RadiusModes modes{};
   for (std::size_t k = 0; k < modes.size(); ++k) modes[k] = value(CourseMeasure(int(CourseMeasure::mode_2) + int(k)));
@@ -68,7 +68,10 @@ std::variant<CellShape, NoShape> CourseShapes::shape(const VirtualCell& cell) co
 }
 
 std::string CourseShapes::description() const {
-  return fmt::format("dynamic table {} by {}", table_.spec().identifier, table_.content().program);
+  const DynamicSpec& spec = table_.spec();
+  const double length = flow_.width_um / channel_flow_of(spec.base).width_um;
+  return fmt::format("dynamic table {} by {}, {:.4g} to {:.4g} um behind the contraction", spec.identifier,
+                     table_.content().program, length * spec.first_um, length * spec.last_um);
 }
 
 }  // namespace rheocyte

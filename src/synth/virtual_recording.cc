@@ -61,7 +61,9 @@ struct Block {
 };
 
 /// Of the tension or the shape at rest, one of which a table has; dclab knows userdef0 to userdef9.
-const std::string elongation_feature = "userdef0";
+const std::string elongation_feature = "userdef0", elongation_key = "user:rheocyte " + elongation_feature;
+constexpr const char *meaning_of_tension = "true axial tension (Pa)",
+                     *meaning_of_aspect = "true length over width at rest";
 
 /// Cells one after the other, each from its own random numbers.
 class VirtualCamera {
@@ -255,8 +257,7 @@ void describe_truth(const SynthSpec& spec, const CellShapes& shapes, const Virtu
   for (std::size_t k = 0; k < meanings.size(); ++k)
     file.add_metadata(fmt::format("user:rheocyte userdef{}", k + 1), fmt::format("true {}", meanings[k]));
   if (spec.axial_tension_Pa || spec.rest_aspect)
-    file.add_metadata(fmt::format("user:rheocyte {}", elongation_feature),
-                      spec.rest_aspect ? "true length over width at rest" : "true axial tension (Pa)");
+    file.add_metadata(elongation_key, spec.rest_aspect ? meaning_of_aspect : meaning_of_tension);
   file.add_metadata("user:rheocyte shapes", shapes.description());
   if (!spec.made_of.empty()) file.add_metadata(made_of_key, spec.made_of);
   file.add_metadata("user:rheocyte seed", static_cast<std::int64_t>(spec.seed));
@@ -288,6 +289,13 @@ std::string reasons(const VirtualRecording& result) {
 }
 
 }  // namespace
+
+std::optional<Elongation> elongation_of_cells(const Metadata& metadata) {
+  const auto meaning = metadata.text(elongation_key);
+  if (meaning == meaning_of_tension) return Elongation::by_tension;
+  if (meaning == meaning_of_aspect) return Elongation::by_rest_shape;
+  return {};
+}
 
 std::string_view noun_of_missing(const VirtualRecording& result) {
   return result.pictures == result.cells ? "cells" : "pictures of cells";

@@ -3,9 +3,11 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "measurement/metadata.h"
 #include "synth/cell_shapes.h"
 #include "synth/synth_spec.h"
 
@@ -21,6 +23,9 @@ struct VirtualRecording {
 
 /// What is left out, of how many: "cells", or "pictures" of cells at several places.
 std::string_view noun_of_missing(const VirtualRecording&);
+
+/// By what the cells of a virtual recording are elongated; nothing if by the flow alone, or if it is not virtual.
+std::optional<Elongation> elongation_of_cells(const Metadata&);
 
 /// What else the file tells.
 struct RecordingProvenance {

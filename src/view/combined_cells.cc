@@ -48,7 +48,8 @@ CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions&
 CombinedCell CombinedCells::at(std::size_t event) {
   std::array<double, 1> viscosity_mPas{};
   events_.settings().viscosities(events_.recording(), event, viscosity_mPas);
-  const ModuliEstimate estimate = moduli_.fit(events_.shape(event), viscosity_mPas[0]);
+  ModuliEstimate estimate = moduli_.fit(events_.shape(event), viscosity_mPas[0]);
+  if (estimate.status == ModuliStatus::no_data && events_.is_cut(event)) estimate.status = ModuliStatus::cut;
   CombinedCell cell{numbers_of(estimate), {}};
   cell.told["table"] = table_.content.spec.identifier;
   cell.told["case"] = nullptr;

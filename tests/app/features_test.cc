@@ -70,7 +70,8 @@ TEST_F(Features, ARectangleHasThoseOfARectangle) {
 }
 
 TEST_F(Features, HowAnOutlineLiesToTheFlowIsToldWhereItIsWhole) {
-  // A sheared rectangle: its flanks rise by one pixel in three; the second one touches the border.
+  // A sheared rectangle: its flanks rise by one pixel in three; the second one touches the border, which is told, and
+  // has no features.
   constexpr hsize_t height = 40, width = 60;
   std::vector<std::uint8_t> masks(2 * height * width, 0);
   for (hsize_t x = 0; x < 36; ++x)
@@ -86,7 +87,9 @@ TEST_F(Features, HowAnOutlineLiesToTheFlowIsToldWhereItIsWhole) {
   }
   const auto ended = features({path("a.rtdc")});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("25 features"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("25 features of 1 of 2 events"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.err.find("1 event is left out, because its outline touches the edge of the picture"),
+            std::string::npos);
   const Recording made(folder_ / "a_features_rheocyte.rtdc");
   const auto column = [&](const std::string& role) {
     return test::column(made, made.metadata().text("user:rheocyte " + role).value_or("missing"));
@@ -96,6 +99,7 @@ TEST_F(Features, HowAnOutlineLiesToTheFlowIsToldWhereItIsWhole) {
   EXPECT_GT(column("sine_mode_2")[0], 0.05);
   for (const auto* role : {"sine_mode_2", "sine_mode_3", "sine_mode_4", "flank_slope"})
     EXPECT_TRUE(std::isnan(column(role)[1])) << role;
+  EXPECT_TRUE(std::isnan(test::column(made, "area_um")[1]));
 }
 
 TEST_F(Features, WhatIsMissingIsSaid) {

@@ -78,7 +78,9 @@ TEST_F(Implausible, WithoutAnyPossibleTemperatureTheRecordingIsRefused) {
     replace(writer, "setup:temperature", 0);
     writer.scalar("temp", {0, 0, 0});
   });
-  expect_refusal("setup:temperature is 0, but a buffer in a channel has 2 to 60 degC. Give --temperature");
+  expect_refusal(
+      "setup:temperature is 0, but a buffer in a channel has 2 to 60 degC. Give it in degrees Celsius "
+      "(--temperature-if-missing)");
   write_recording([](RecordingWriter& writer) { replace(writer, "setup:temperature", 296.15); });
   expect_refusal("(296.15 K are 23 degC)");
   expect_refusal("--temperature 296.15: a buffer in a channel has 2 to 60 degC (296.15 K are 23 degC).",
@@ -96,7 +98,8 @@ TEST_F(Implausible, TextsThatAreNoNumbersAreShownAsTheyAre) {
   stored("imaging:pixel size", "0,34");
   expect_refusal("imaging:pixel size is \"0,34\", which is not a positive number; give it with --pixel-size-um");
   stored("setup:temperature", "23,5");
-  expect_refusal("setup:temperature is \"23,5\", which is not a number. Give --temperature");
+  expect_refusal(
+      "setup:temperature is \"23,5\", which is not a number. Give it in degrees Celsius (--temperature-if-missing)");
   moduli("setup:temperature is \"23,5\", which is not a number.", {"--temperature-if-missing", "23"});
   for (const char* option : {"--temperature", "--temperature-if-missing"})
     expect_refusal(std::string(option) + " 23,5: give degrees Celsius", {option, "23,5"});
@@ -160,6 +163,21 @@ TEST_F(Implausible, ContradictionsAreNamed) {
   EXPECT_EQ(agreeing.err.find("area_cvx"), std::string::npos) << "80 um^2 are 692 pixels of 0.34 um";
   moduli("the pixel size is 0.68 um, but areas in um^2 and in pixels (area_um, area_cvx) belong to pixels of 0.34 um.",
          {"--pixel-size-um", "0.68"});
+}
+
+TEST_F(Implausible, DeformationsInPerCentAreRefused) {
+  const auto stored = [&](const char* feature, const std::vector<double>& values) {
+    RecordingWriter writer(folder_ / "a.rtdc");
+    test::write_usual_metadata(writer);
+    writer.scalar("area_um", {80, 80, 80});
+    writer.scalar(feature, values);
+  };
+  stored("deform", {2.5, 3, NAN});
+  expect_refusal("deform is 2.75 at the median, and cannot exceed 1: is it in per cent? Store it as a fraction.");
+  stored("circ", {97.5, 97, 96});
+  expect_refusal("circ is 97 at the median, and cannot exceed 1: is it in per cent?");
+  stored("deform", {0.03, 0.03, 1.5});
+  EXPECT_EQ(extract().exit_code, 0) << "one damaged event is no unit";
 }
 
 TEST_F(Implausible, NumbersInOtherUnitsAreRefused) {

@@ -1,6 +1,7 @@
 // `rheocyte moduli` from a recording with masks to the table of events.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "../table/invented_combined.h"
 #include "../table/invented_elongated_combined.h"
 #include "measurement/mask_from_outline.h"
+#include "measurement/recording.h"
 #include "measurement/recording_writer.h"
 
 namespace rheocyte::test::moduli_test {
@@ -271,6 +273,41 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
                 .err.find("--axial-tension is now called --axial-tension-Pa; this version still reads the old name"),
             std::string::npos);
   expect_refusal({folder.string(), "--only-figure"}, "too few features to find the axial tension");
+}
+
+TEST_F(ModuliCommand, TheOrderOfTheEventsDoesNotChangeADigit) {
+  // Forty different cells of the program's table, and the same in reverse: the tension of all, and the row of each.
+  const fs::path made = folder_.path() / "made.rtdc";
+  const Ended synth = run({{RHEOCYTE, "synth", EXAMPLES "/recordings/combined-cells.toml", "-o", made.string(), "--set",
+                            "recording.cells=40"}});
+  ASSERT_EQ(synth.exit_code, 0) << synth.err;
+  const Recording original(made);
+  const ImageSize size = original.image_size("mask").value();
+  std::vector<std::uint8_t> masks(original.events() * size.pixels());
+  original.read_images("mask", 0, original.events(), masks);
+  const auto told = [&] {
+    {
+      RecordingWriter writer(recording());
+      write_usual_metadata(writer);
+      writer.images("mask", masks, size.height, size.width);
+    }
+    const Ended ended =
+        run({{RHEOCYTE, "moduli", recording().string(), "--section", "tube", "--viscosity-mPas", "15"}});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    auto rows = rows_of(table());
+    for (auto& row : rows) row.erase("event");
+    const auto summary = nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json"));
+    return std::pair(rows, summary.at("axial_tension"));
+  };
+  const auto [there, tension] = told();
+  const auto pixels = std::ptrdiff_t(size.pixels());
+  for (auto a = masks.begin(), b = masks.end() - pixels; a < b; a += pixels, b -= pixels)
+    std::swap_ranges(a, a + pixels, b);
+  auto [back, tension_back] = told();
+  std::ranges::reverse(back);
+  EXPECT_EQ(there, back);
+  EXPECT_EQ(tension, tension_back);
+  EXPECT_TRUE(tension.at("value_Pa").is_number()) << tension;
 }
 
 TEST_F(ModuliCommand, WithoutATableThatOfTheProgramIsTaken) {

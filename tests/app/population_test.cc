@@ -143,6 +143,8 @@ TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
   refused({"--outline-noise-um", "nan"}, "--outline-noise-um");
   refused({"--outline-noise-um", "wide"}, "--outline-noise-um");
   refused({"--outline-noise-um", "0.8"}, "is more than a tenth of it");
+  refused({"--outline-noise-um", "0.4"},
+          "--outline-noise-um 0.4 is too large: it would make the mode c7 of equal cells");
   refused({"--outline-noise-um", "0.1", "--by", "deformation"}, "--outline-noise-um and --by deformation contradict");
 }
 

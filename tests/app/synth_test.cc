@@ -129,6 +129,11 @@ TEST_F(Synth, WithAnAxialTensionAloneTheCellsAreThoseOfTheTableOfElongatedOnesTh
   EXPECT_LT(by_scatter, 0.02) << ended.out;
   EXPECT_NEAR(in_common, std::hypot(0.06, 0.026) * modulus, 0.005) << ended.out;
   EXPECT_NEAR(tension, 300, 15) << ended.out;
+  EXPECT_NE(
+      ended.out.find("made by rheocyte synth from neo-Hookean solids in the square channel under an axial tension; "
+                     "the table of elongated cells fits."),
+      std::string::npos)
+      << ended.out;
 }
 
 TEST_F(Synth, CellsThatAreLongAtRestNeedATableOfSuchCells) {

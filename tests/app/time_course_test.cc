@@ -145,6 +145,9 @@ TEST_F(TimeCourseCommand, CellsOnTheirWayNeedADynamicTableWithPlacesAndViscosity
   EXPECT_EQ(synth({"--set", "recording.cells=5"}).exit_code, 0);
   EXPECT_EQ(synth({"--set", "recording.cells=5", "--set", "shapes.table=HE-chip-26"}).exit_code, 0);
   expect_sentence(synth({"--set", "cell.radius_um.mean=2"}), "None of the 320 pictures of cells can be recorded: 320 ");
+  expect_sentence(synth({"--set", "recording.places_um=[320]"}),
+                  "80 at a place outside the table; the shapes come from");
+  expect_sentence(synth({"--set", "recording.places_um=[320]"}), " to 310 um behind the contraction");
   expect_sentence(synth({"--set", "shapes.model=analytical"}),
                   "recording.places_um and shapes.model = \"analytical\" contradict each other");
   std::string without_places = population;

@@ -7,9 +7,9 @@
 
 #include "../table/invented_combined.h"
 #include "../table/invented_elongated_combined.h"
-#include "infer/common_tension.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
+#include "infer/seen_cells.h"
 #include "infer/slopes_between_cells.h"
 #include "measurement/shape_in_pixels.h"
 
@@ -189,12 +189,6 @@ class ElongatedCells : public testing::Test {
     return {seen, 2 * S};
   }
 
-  std::vector<SeenCell> recording(double tension_Pa, int count, double scatter = 1) {
-    std::vector<SeenCell> cells;
-    for (int i = 0; i < count; ++i) cells.push_back(random_cell(tension_Pa, scatter).seen);
-    return cells;
-  }
-
   CombinedInterpolation between_;
   ChannelFlow simulated_;
   BulkCortexFit moduli_;
@@ -242,61 +236,6 @@ TEST_F(ElongatedCells, NoSingleCellMovesTheTensionOfItsRecordingWhoseErrorItHas)
     EXPECT_NEAR(found.stiffness_kPa, exact.stiffness_kPa, 1e-6 * exact.stiffness_kPa);
     EXPECT_GT(found.stiffness_error_kPa, exact.stiffness_error_kPa);
   }
-}
-
-TEST_F(ElongatedCells, TheTensionOfARecordingLiesInItsInterval) {
-  // Of 8 recordings of 25 cells, 90 % intervals hold 7 on average and fewer than 5 in one of two hundred; the mean is
-  // off by less than 3 %.
-  constexpr int recordings = 8;
-  constexpr double tension_Pa = 1000;
-  int held = 0;
-  double mean = 0;
-  for (int k = 0; k < recordings; ++k) {
-    const CommonTension found = common_tension(moduli_, recording(tension_Pa, 25));
-    ASSERT_TRUE(found.is_found());
-    EXPECT_LT(found.misfit, 2);
-    held += found.lower_Pa <= tension_Pa && tension_Pa <= found.upper_Pa;
-    mean += found.value_Pa / recordings;
-  }
-  EXPECT_GE(held, 5);
-  EXPECT_NEAR(mean / tension_Pa, 1, 0.03);
-}
-
-TEST_F(ElongatedCells, ItLiesThereAlsoWhereCellsScatterMoreThanTheirErrorsSay) {
-  // Three times as much; 90 % intervals as above.
-  int held = 0;
-  for (int k = 0; k < 8; ++k) {
-    const CommonTension found = common_tension(moduli_, recording(1000, 25, 3));
-    EXPECT_GT(found.misfit, 2);
-    held += found.lower_Pa <= 1000 && 1000 <= found.upper_Pa;
-  }
-  EXPECT_GE(held, 5);
-}
-
-TEST_F(ElongatedCells, WithoutATensionNoneIsFound) {
-  // Within three times the half width of the 90 % interval of zero.
-  const CommonTension found = common_tension(moduli_, recording(0, 25));
-  ASSERT_TRUE(found.is_found());
-  EXPECT_LT(std::abs(found.value_Pa), 1.5 * (found.upper_Pa - found.lower_Pa));
-}
-
-TEST_F(ElongatedCells, AFewStrangersHardlyMoveTheTension) {
-  // Four of thirty have another fifth mode: the tension moves by less than its interval.
-  auto cells = recording(1000, 30);
-  const CommonTension alone = common_tension(moduli_, cells);
-  for (std::size_t i = 0; i < 4; ++i) cells[i].shape.features(int(ShapeFeature::first_mode) + 3) += 0.02;
-  const CommonTension among_strangers = common_tension(moduli_, cells);
-  EXPECT_NEAR(among_strangers.value_Pa, alone.value_Pa, alone.upper_Pa - alone.lower_Pa);
-}
-
-TEST_F(ElongatedCells, TooFewCellsTellNoTension) {
-  // Nine cells, and one of which nothing is known.
-  auto cells = recording(1000, 10);
-  cells[0].shape.features.setConstant(std::nan(""));
-  const CommonTension found = common_tension(moduli_, cells);
-  EXPECT_FALSE(found.is_found());
-  EXPECT_EQ(found.cells, 9u);
-  EXPECT_TRUE(std::isinf(found.tension().error_Pa));
 }
 
 TEST_F(ElongatedCells, SlopesBetweenCellsOfOneTensionAreThoseOfTheModel) {
