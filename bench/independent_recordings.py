@@ -9,8 +9,9 @@ are long at rest), in a channel of 15 to 40 um, in methyl cellulose or a Newtoni
 square channel for nine cells (`rheocyte solve`) and interpolated in radius and modulus. Masks contain the pixels whose centre
 lies inside, those covered by more than half, or those of which more than 32 of 8 x 8 samples lie inside: where the edge halves
 a pixel, these leave it out. The camera is tilted by so many degrees. Prints the errors of the recommended modulus, of that from
-deformation and of that by the outlines for each recording, and how many are right within one and two stated errors. Outlines
-and recordings that are in FOLDER are kept. Needs numpy, scipy, h5py and dclab.
+deformation and of that by the outlines for each recording, and how many are right within one and two stated errors. These
+contain how the cells scatter about the median of their population; of the cells' own median more are right. Outlines and
+recordings that are in FOLDER are kept. Needs numpy, scipy, h5py and dclab.
 """
 import argparse
 import csv
@@ -180,7 +181,7 @@ def cells(setup, modulus, solved):
 
 
 def record(program, folder, setup, masks, tilt):
-    """The file and the median modulus of its cells (kPa)."""
+    """The file, the median modulus of its cells, and that of the population they were drawn from (kPa)."""
     modulus, solved = outlines(program, folder, setup)
     moduli, drawn, places = cells(setup, modulus, solved)
     file = folder / f"{setup.name}-{masks}-{tilt:g}deg.rtdc"
@@ -190,7 +191,7 @@ def record(program, folder, setup, masks, tilt):
         pictures = np.array([mask(outline, np.radians(tilt), np.array(shape) / 2 + place, shape, masks)
                              for outline, place in zip(drawn, places)])
         write(file, setup, pictures)
-    return file, float(np.median(moduli))
+    return file, float(np.median(moduli)), modulus
 
 
 def write(file, setup, pictures, keep_masks=True):
@@ -225,14 +226,15 @@ def number(line, name):
     return float(line[name] or "nan")
 
 
-def judged(line, truth):
-    """Relative errors (%), by what, the stated errors (%) and the events without a modulus from deformation at either end (%)."""
+def judged(line, truth, of_population):
+    """Relative errors (%), by what, the stated errors (%), and the events without a modulus from deformation at either end (%)."""
     found = {name: 100 * (number(line, column) / truth - 1) for name, column in
              {"recommended": "recommended_young_modulus_median_kPa", "deformation": "young_modulus_median_kPa",
               "outlines": "young_modulus_elongated_median_kPa"}.items()}
     stated = [100 * number(line, f"recommended_young_modulus_{error}_kPa") / truth for error in ("median_error", "common_error")]
     at_end = [100 * sum(number(line, name) for name in names) / number(line, "events")
               for names in (("too_stiff", "unresolved"), ("too_soft", "unstable"))]
+    found["of population"] = 100 * (number(line, "recommended_young_modulus_median_kPa") / of_population - 1)
     return found | {"by": line["recommended_modulus"], "scatter": stated[0], "common": stated[1], "stiff": at_end[0], "soft": at_end[1]}
 
 
@@ -245,10 +247,12 @@ def print_coverage(name, lines):
     with_number = [j for j in lines if np.isfinite(j["recommended"])]
     if not with_number:
         return
-    deviation = np.array([abs(j["recommended"]) / np.hypot(j["scatter"], j["common"]) for j in with_number])
+    deviation, of_population = (np.array([abs(j[error]) / np.hypot(j["scatter"], j["common"]) for j in with_number])
+                                for error in ("recommended", "of population"))
     mean = {number: np.nanmean([j[number] for j in lines]) for number in ("recommended", "deformation", "outlines")}
     print(f"{name}: {len(with_number)} of {len(lines)} with a recommended modulus, {np.mean(deviation < 1):.0%} within its error, "
-          f"{np.mean(deviation < 2):.0%} within twice; mean error {mean['recommended']:+.2f} %, from deformation "
+          f"{np.mean(deviation < 2):.0%} within twice (of the population's median {np.mean(of_population < 1):.0%} and "
+          f"{np.mean(of_population < 2):.0%}); mean error {mean['recommended']:+.2f} %, from deformation "
           f"{mean['deformation']:+.2f} %, by the outlines {mean['outlines']:+.2f} %")
 
 
@@ -268,8 +272,8 @@ def main():
                   "common | from deformation | by outlines | beyond the stiff, soft end (%) |\n|" + 10 * "---|")
             lines = {}
             for k in range(options.first, options.first + options.recordings):
-                file, truth = record(options.program, options.folder, s := setup(k), masks, tilt)
-                lines[s] = judged(extract(options.program, file, s), truth)
+                file, truth, of_population = record(options.program, options.folder, s := setup(k), masks, tilt)
+                lines[s] = judged(extract(options.program, file, s), truth, of_population)
                 print_line(s, truth, lines[s])
             print()
             for kind in (*DEFORMATIONS, ""):
