@@ -148,6 +148,7 @@ class Fits {
     if (const auto outside = events_.outside_temperature())
       s.warnings.push_back(settings.outside_temperature_text(outside));
     if (const auto cut = s.counts[std::size_t(ModuliStatus::cut)]) s.warnings.push_back(cut_text(cut));
+    if (auto missing = missing_text(s); !missing.empty()) s.warnings.push_back(std::move(missing));
     if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
     if (is_square()) {
       s.warnings.push_back(section_text());

@@ -41,6 +41,18 @@ ModuliSummary ModuliTally::summary(const CommonErrors& common) {
   return summary_;
 }
 
+std::string missing_text(const ModuliSummary& s) {
+  const auto count = [&](ModuliStatus status) { return s.counts[std::size_t(status)]; };
+  const std::size_t missing = count(ModuliStatus::outside_table) + count(ModuliStatus::poor_fit),
+                    fitted = s.with_stiffness() + missing;
+  if (s.with_stiffness() == 0 || missing <= s.with_stiffness()) return {};
+  return fmt::format(
+      "only {} of {} fitted events have a stiffness: the medians are those of cells that happen to be in the table, "
+      "not "
+      "of all; report none of them.",
+      s.with_stiffness(), fitted);
+}
+
 std::string in_one_line(const ModuliSummary& s) {
   std::string text = fmt::format("{} of {} events {}", s.resolved(), s.events(), name_of(ModuliStatus::resolved));
   if (s.resolved() > 0) text += range_text(s.young_kPa, "E", "kPa") + range_text(s.cortex_mN_per_m, "E2D", "mN/m");

@@ -54,6 +54,9 @@ class ModuliTally {
   std::vector<double> young_, cortex_, stiffness_;
 };
 
+/// What the medians are worth where fewer than half of the events that were fitted have a stiffness; else empty.
+std::string missing_text(const ModuliSummary&);
+
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);
 /// By a table of elongated cells: the axial tension, the slopes between cells, and the median cell. Empty by another
