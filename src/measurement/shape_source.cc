@@ -31,7 +31,7 @@ void refuse_per_cent(const Recording& recording, const std::string& feature, std
   std::erase_if(sorted, [](double value) { return std::isnan(value); });
   refuse_path(recording.file(),
               fmt::format("{} is {:.3g} at the median, and cannot exceed 1: is it in per cent? Store it as a fraction.",
-                          feature, median_of(sorted)));
+                          feature, quantile(sorted, 0.5)));
 }
 
 bool from_outline(const std::string& source) { return source == "contour" || source == "mask"; }
