@@ -81,8 +81,7 @@ SurfaceExtremes surface_extremes(const Cortex& cortex, const Eigen::MatrixX2d& s
 void read_flow(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
   const Media& media = problem;
   const DuctGeometry& geometry = discrete.space().mesh().geometry();
-  const double half = geometry.half_length(),
-               outlet = -discrete.system().drop() * half * discrete.system().undisturbed_gradient(media.liquid);
+  const double half = geometry.half_length(), outlet = -discrete.system().inlet_pressure(media.liquid);
   r.cell_velocity = unknowns(discrete.space().cell_velocity());
   r.reynolds = media.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
@@ -280,9 +279,13 @@ std::shared_ptr<Discrete> duct_discrete(const Problem& problem, const Resolution
   return std::make_shared<DuctDiscrete>(problem, subdivision_of(problem), resolution.degree);
 }
 
+/// As in the tube (solve/tube.cc): layers and elements at the ends depend on the radius.
 bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
-  return subdivision_of(a) == subdivision_of(b) && duct_layers_for(DuctGeometry(shape_of(a)), subdivision_of(a)) ==
-                                                       duct_layers_for(DuctGeometry(shape_of(b)), subdivision_of(b));
+  const auto elements = [](const Problem& problem) {
+    return DuctMesh(DuctGeometry(shape_of(problem)), subdivision_of(problem), symmetry_of(problem)).elements();
+  };
+  return subdivision_of(a) == subdivision_of(b) &&
+         std::ranges::equal(elements(a), elements(b), {}, &DuctElement::part, &DuctElement::part);
 }
 
 }  // namespace
