@@ -76,7 +76,7 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
 }
 
 double DuctSystem::inlet_pressure(const Liquid& liquid) const {
-  return drop_ * undisturbed_gradient(liquid) * space_.mesh().geometry().half_length();
+  return drop_ * undisturbed_gradient(liquid) * space_.mesh().geometry().end();
 }
 
 VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
