@@ -1,24 +1,31 @@
 #include "duct/duct_ends.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rheocyte {
 namespace {
 
-/// A face of an element on one of the ends.
+/// A face of an element in a plane across the duct.
 struct EndFace {
   int element;
+  double xi3;  ///< of the face in the element
   std::vector<int> nodes;
   VectorXd area;  ///< of the quadrature points
 };
 
-std::vector<EndFace> end_faces(const DuctSpace& space, Face end, const ReferenceElement<2>& face) {
+/// Of the elements on both sides of the plane at a place between the box and the end of the mesh.
+std::vector<EndFace> faces_at(const DuctSpace& space, Face end, double outward, const ReferenceElement<2>& face) {
   std::vector<EndFace> faces;
   for (int e = 0; e < int(space.elements().size()); ++e) {
     const DuctElement& element = space.mesh().elements()[e];
-    if (element.part != Part::end || element.face != end || element.outward[1] != 1) continue;
+    const auto side =
+        std::ranges::find_if(element.outward, [&](double o) { return std::abs(o - outward) < same_place; });
+    if (element.part != Part::end || element.face != end || side == element.outward.end()) continue;
     const auto& nodes = space.nodes().of_element[e];
-    EndFace& found = faces.emplace_back(EndFace{e, {nodes.end() - face.nodes(), nodes.end()}, {}});
+    const double xi3 = side == element.outward.begin() ? 0 : 1;
+    const auto first = xi3 == 0 ? nodes.begin() : nodes.end() - face.nodes();
+    EndFace& found = faces.emplace_back(EndFace{e, xi3, {first, first + face.nodes()}, {}});
     Eigen::MatrixX2d X(face.nodes(), 2);
     for (int k = 0; k < face.nodes(); ++k) X.row(k) = space.node_points()[found.nodes[k]].tail<2>().transpose();
     const Eigen::MatrixX2d G1 = face.shape.slope[0] * X, G2 = face.shape.slope[1] * X;
@@ -26,6 +33,10 @@ std::vector<EndFace> end_faces(const DuctSpace& space, Face end, const Reference
     found.area = face.weights.array() * det.abs();
   }
   return faces;
+}
+
+std::vector<EndFace> end_faces(const DuctSpace& space, Face end, const ReferenceElement<2>& face) {
+  return faces_at(space, end, space.mesh().geometry().last_outward(), face);
 }
 
 }  // namespace
@@ -43,14 +54,14 @@ VectorXd duct_end_load(const DuctSpace& space, Face end) {
   return load;
 }
 
-double duct_inlet_pressure(const DuctSpace& space, const VectorXd& unknowns) {
+double duct_end_pressure(const DuctSpace& space, const VectorXd& unknowns, Face end) {
   const ReferenceElement<2> face(space.reference().degree());
   const int points_1d = int(face.points_1d.size());
   double force = 0, area = 0;
-  for (const EndFace& self : end_faces(space, Face::rear, face)) {
+  for (const EndFace& self : faces_at(space, end, 1, face)) {
     for (int q = 0; q < face.points(); ++q) {
       const VectorXd modes =
-          space.reference().pressure_modes({face.points_1d(q % points_1d), face.points_1d(q / points_1d), 1});
+          space.reference().pressure_modes({face.points_1d(q % points_1d), face.points_1d(q / points_1d), self.xi3});
       for (int k = 0; k < modes.size(); ++k)
         force += self.area(q) * modes(k) * unknowns(space.pressure(self.element, k));
     }

@@ -53,6 +53,12 @@ double DuctGeometry::box_along(const DuctPoint& cube) const {
   return x * (1 - (1 - shape_.edge / box_) * at_edge * at_edge);
 }
 
+double DuctGeometry::end_along(const DuctPoint& cube, double outward) const {
+  const double sign = std::copysign(1, cube(0));
+  return std::lerp(box_along(cube), sign * half_length_, std::min(outward, 1.0)) +
+         sign * shape_.run_out * std::max(outward - 1, 0.0);
+}
+
 Eigen::Vector2d DuctGeometry::box_across(const DuctPoint& cube, double stretch, double centre) const {
   const double Y = cube(1), Z = cube(2);
   if (shape_.section == Section::tube)
@@ -70,8 +76,8 @@ DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) co
     case Part::ring: return (1 - outward) * core(cube) + outward * surface(cube);
     case Part::layers:
     case Part::end: {
-      const double x = part == Part::end ? std::lerp(box_along(cube), std::copysign(half_length_, cube(0)), outward)
-                                         : (1 - outward) * surface(cube)(0) + outward * box_along(cube);
+      const double x =
+          part == Part::end ? end_along(cube, outward) : (1 - outward) * surface(cube)(0) + outward * box_along(cube);
       const Eigen::Vector2d yz = across(part, cube, outward, 1, 0);
       return {x, yz(0), yz(1)};
     }
@@ -82,7 +88,7 @@ DuctPoint DuctGeometry::map(Part part, const DuctPoint& cube, double outward) co
 Eigen::Vector2d DuctGeometry::across(Part part, const DuctPoint& cube, double outward, double stretch,
                                      double aside) const {
   // At the ends of the duct the mesh does not follow the cell.
-  const double in_mesh = part == Part::end ? outward : 0;
+  const double in_mesh = part == Part::end ? std::min(outward, 1.0) : 0;
   const double centre = std::lerp(shape_.offset + aside, shape_.offset * stretch, in_mesh);
   Eigen::Vector2d side = box_across(cube, stretch, centre);
   side(0) -= aside;

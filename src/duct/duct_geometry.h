@@ -20,7 +20,8 @@ struct DuctShape {
   Section section = Section::square;
   double radius = 0.5;  ///< of the cell
   Extent extent = {};   ///< of a rectangle
-  double length = 0;    ///< of the duct; 0: the shortest
+  double length = 0;    ///< of the duct that is told of; 0: the shortest
+  double run_out = 0;   ///< by which the mesh goes on beyond it at both ends
   double offset = 0;    ///< of the cell's centre in y
   /// Half-length of the box round the cell, and of its front edge at the wall that is nearer to a cell off the axis of
   /// a funnel; 0: as far as the cell disturbs the flow, and the channel is straight along y.
@@ -34,8 +35,9 @@ class DuctGeometry {
   DuctGeometry(Section section, double radius_ratio) : DuctGeometry(DuctShape{section, radius_ratio}) {}
 
   /// Where a part's point lies whose coordinate `outward` runs from 0 to 1: in the ring from the core to the surface,
-  /// in the layers from there to the box or the wall, in the ends from the box to the channel's end. `cube` is the
-  /// point of the cube's surface that it belongs to, in the core the point in the cube.
+  /// in the layers from there to the box or the wall, in the ends from the box to the channel's end, and on to 2 where
+  /// the mesh goes on beyond it. `cube` is the point of the cube's surface that it belongs to, in the core the point in
+  /// the cube.
   DuctPoint map(Part, const DuctPoint& cube, double outward) const;
 
   /// (y, z) of that point of the liquid, seen from the cell, in a duct that is not straight (docs/theory-time.md,
@@ -54,12 +56,17 @@ class DuctGeometry {
   /// Half-length of the shortest duct of this section, and of this one.
   double min_length() const { return min_length_; }
   double half_length() const { return half_length_; }
+  /// Where the mesh ends, as x and as `outward`.
+  double end() const { return half_length_ + shape_.run_out; }
+  double last_outward() const { return shape_.run_out > 0 ? 2 : 1; }
 
  private:
   DuctPoint surface(const DuctPoint& cube) const;
   DuctPoint core(const DuctPoint& cube) const;
   /// x of a point of the box or the wall, and its place across the duct, where the cell is at `centre` along y.
   double box_along(const DuctPoint& cube) const;
+  /// x of a point beyond the box.
+  double end_along(const DuctPoint& cube, double outward) const;
   Eigen::Vector2d box_across(const DuctPoint& cube, double stretch, double centre) const;
 
   DuctShape shape_;

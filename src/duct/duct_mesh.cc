@@ -59,6 +59,20 @@ struct CubeFace {
 
 namespace {
 
+/// From the box to the end of the mesh. Where the mesh has a run-out the wall is not straight, and its corners pass by
+/// all elements; else nothing is disturbed beyond the shortest duct.
+std::vector<double> end_breaks(const DuctGeometry& geometry, int n) {
+  constexpr double longest = 1.1;  // of the elements beyond the shortest duct, if the wall is not straight
+  const double half = geometry.half_length(), way = half - geometry.box(), run_out = geometry.end() - half,
+               near = (geometry.min_length() - geometry.box()) / way;
+  const auto elements_in = [&](double length) { return int(std::ceil(length / longest - 1e-9)); };
+  std::vector<double> ends = breaks(n, 0, std::min(1.0, near), 1.3);
+  const auto add = [&](const std::vector<double>& more) { ends.insert(ends.end(), more.begin() + 1, more.end()); };
+  if (near < 1) add(breaks(run_out > 0 ? elements_in((1 - near) * way) : 1, near, 1));
+  if (run_out > 0) add(breaks(elements_in(run_out), 1, geometry.last_outward()));
+  return ends;
+}
+
 std::vector<CubeFace> cube_faces(Symmetry symmetry, const DuctSubdivision& n) {
   std::vector<CubeFace> faces;
   const auto x = side_breaks(n);
@@ -112,9 +126,7 @@ DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivis
     : geometry_(geometry), subdivision_(subdivision), symmetry_(symmetry) {
   const int count = subdivision.layers > 0 ? subdivision.layers : duct_layers_for(geometry, subdivision);
   const auto layers = breaks(count, 0, 1, std::pow(2.0, count));
-  const double near = (geometry.min_length() - geometry.box()) / (geometry.half_length() - geometry.box());
-  auto ends = breaks(subdivision.axial, 0, std::min(1.0, near), 1.3);
-  if (near < 1) ends.push_back(1);  // where nothing is disturbed
+  const auto ends = end_breaks(geometry, subdivision.axial);
   for (const CubeFace& face : cube_faces(symmetry, subdivision)) {
     if (face.face == Face::front) add(Part::core, face, side_breaks(subdivision));
     add(Part::ring, face, {0, 1});

@@ -96,7 +96,7 @@ void DuctSpace::set_inflow(const VectorXd& outward) {
   const DuctShape& shape = mesh_.geometry().shape();
   const bool is_tube = shape.section == Section::tube;
   const int narrowing = shape.narrows_in_height ? 2 : 1;
-  const double end = mesh_.geometry().half_length(), slope = inlet_slope(outward);
+  const double end = mesh_.geometry().end(), slope = inlet_slope(outward);
   VectorXd inflow;
   for (int i = 0; i < nodes_.count; ++i) {
     if (straight_points_[i](0) > -end + same_place || mesh_.geometry().is_wall(straight_points_[i])) continue;
@@ -112,7 +112,8 @@ double DuctSpace::inlet_slope(const VectorXd& outward) const {
   const int p = reference_.degree(), on_face = (p + 1) * (p + 1);
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const DuctElement& element = mesh_.elements()[e];
-    if (element.part != Part::end || element.face != Face::rear || element.outward[1] != 1) continue;
+    const bool is_last = element.outward[1] == mesh_.geometry().last_outward();
+    if (element.part != Part::end || element.face != Face::rear || !is_last) continue;
     const auto& nodes = nodes_.of_element[e];
     VectorXd along(p + 1);
     for (int k = 0; k <= p; ++k) along(k) = outward(nodes[k * on_face]);
@@ -142,7 +143,7 @@ void DuctSpace::find_fixed_nodes() {
 
 std::vector<DuctSpace::NodeFlags> DuctSpace::flag_nodes() const {
   std::vector<NodeFlags> flags(nodes_.count);
-  const double end = mesh_.geometry().half_length();
+  const double end = mesh_.geometry().end();
   for (int i = 0; i < nodes_.count; ++i) {
     const DuctPoint& x = points_[i];
     flags[i].across = across_at(mesh_.symmetry(), x);

@@ -75,11 +75,14 @@ double DuctSystem::undisturbed_gradient(const Liquid& liquid) const {
   return undisturbed_->second;
 }
 
+double DuctSystem::inlet_pressure(const Liquid& liquid) const {
+  return drop_ * undisturbed_gradient(liquid) * space_.mesh().geometry().end();
+}
+
 VectorXd DuctSystem::loads(const Media& media, const VectorXd&) {
-  // The undisturbed pressure vanishes at the cell.
-  const double end_pressure = drop_ * undisturbed_gradient(media.liquid) * space_.mesh().geometry().half_length();
-  VectorXd total = -end_pressure * outlet_load_;
-  if (space_.has_open_inlet()) total -= end_pressure * inlet_load_;
+  const double at_inlet = inlet_pressure(media.liquid);
+  VectorXd total = -at_inlet * outlet_load_;
+  if (space_.has_open_inlet()) total -= at_inlet * inlet_load_;
   return total;
 }
 

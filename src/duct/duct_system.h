@@ -24,6 +24,8 @@ class DuctSystem : public AssembledSystem<float> {
   double stretch_change(const VectorXd& from, const VectorXd& to) const override;
 
   double drop() const { return drop_; }
+  /// At the inlet where it is open; the outlet has its negative: the undisturbed pressure vanishes at the cell.
+  double inlet_pressure(const Liquid&) const;
   /// Pressure gradient of the liquid's undisturbed flow at mean speed 1.
   double undisturbed_gradient(const Liquid&) const;
   std::size_t memory_bytes() const override { return factor_bytes(); }

@@ -5,6 +5,7 @@
 
 #include "fem/end_loads.h"
 #include "fem/observe.h"
+#include "laws/developed_flow.h"
 
 namespace rheocyte {
 namespace {
@@ -158,9 +159,9 @@ void CoupledSystem::add_surface(const Part& part, const At& at, PartResidual& su
 }
 
 double CoupledSystem::undisturbed_pressure(const Liquid& liquid) const {
-  if (!(undisturbed_ && undisturbed_->first == liquid))
-    undisturbed_ = {liquid, undisturbed_inlet_pressure(*space_, liquid)};
-  return undisturbed_->second;
+  if (!(undisturbed_gradient_ && undisturbed_gradient_->first == liquid))
+    undisturbed_gradient_ = {liquid, undisturbed_pressure_gradient(liquid)};
+  return undisturbed_gradient_->second * space_->mesh().geometry().end();
 }
 
 CoupledSystem::InletPressure CoupledSystem::inlet_pressure(const Media& media) const {

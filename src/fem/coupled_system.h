@@ -56,7 +56,7 @@ class CoupledSystem : public AssembledSystem<double> {
   void add_element(int part, const At&, PartResidual&, PartWorkspace<double>&) const;
   /// Cortex, volume of a pure shell, and barycentre.
   void add_surface(const Part&, const At&, PartResidual&, PartWorkspace<double>&) const;
-  /// Of the last liquid that was asked for: most have to integrate for it.
+  /// At the inlet.
   double undisturbed_pressure(const Liquid&) const;
 
   const Discretisation* space_;
@@ -64,7 +64,9 @@ class CoupledSystem : public AssembledSystem<double> {
   SurfaceIntegrals surface_;
   std::vector<Part> parts_;
   std::vector<ElementPlaces> places_;  ///< of each part's element in its matrix
-  mutable std::optional<std::pair<Liquid, double>> undisturbed_;
+  /// Pressure gradient of the last liquid that was asked for: most have to integrate for it. It depends on nothing but
+  /// the liquid; the pressure at the inlet depends on the space, too.
+  mutable std::optional<std::pair<Liquid, double>> undisturbed_gradient_;
   VectorXd inlet_load_;  ///< of this moment
   double inlet_slope_ = 0;
 };

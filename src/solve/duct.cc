@@ -81,12 +81,14 @@ SurfaceExtremes surface_extremes(const Cortex& cortex, const Eigen::MatrixX2d& s
 void read_flow(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
   const Media& media = problem;
   const DuctGeometry& geometry = discrete.space().mesh().geometry();
-  const double half = geometry.half_length(),
-               outlet = -discrete.system().drop() * half * discrete.system().undisturbed_gradient(media.liquid);
+  const double half = geometry.half_length();
+  // Where the mesh ends the pressure is given.
+  const double outlet = geometry.end() == half ? -discrete.system().inlet_pressure(media.liquid)
+                                               : duct_end_pressure(discrete.space(), unknowns, Face::front);
   r.cell_velocity = unknowns(discrete.space().cell_velocity());
   r.reynolds = media.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
-  r.pressure_drop = duct_inlet_pressure(discrete.space(), unknowns) - outlet;
+  r.pressure_drop = duct_end_pressure(discrete.space(), unknowns, Face::rear) - outlet;
   r.flow_rate = duct_flow_rate(discrete.space(), unknowns);
   r.volume_flow = r.flow_rate * geometry.area();
   const double undisturbed = discrete.space().has_open_inlet()
@@ -143,6 +145,7 @@ DuctShape shape_of(const Problem& problem) {
   constexpr double funnel_length = 14;
   DuctShape shape{problem.section, problem.radius_ratio, problem.extent, problem.channel_length};
   if (!problem.wall.is_straight()) shape.length = std::max(shape.length, funnel_length);
+  shape.run_out = run_out(problem.wall);
   if (problem.offset == 0) return shape;
   // The mesh has the offset along y.
   shape.narrows_in_height = problem.camera == Camera::side;
@@ -280,9 +283,13 @@ std::shared_ptr<Discrete> duct_discrete(const Problem& problem, const Resolution
   return std::make_shared<DuctDiscrete>(problem, subdivision_of(problem), resolution.degree);
 }
 
+/// As in the tube (solve/tube.cc): layers and elements at the ends depend on the radius.
 bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
-  return subdivision_of(a) == subdivision_of(b) && duct_layers_for(DuctGeometry(shape_of(a)), subdivision_of(a)) ==
-                                                       duct_layers_for(DuctGeometry(shape_of(b)), subdivision_of(b));
+  const auto elements = [](const Problem& problem) {
+    return DuctMesh(DuctGeometry(shape_of(problem)), subdivision_of(problem), symmetry_of(problem)).elements();
+  };
+  return subdivision_of(a) == subdivision_of(b) &&
+         std::ranges::equal(elements(a), elements(b), {}, &DuctElement::part, &DuctElement::part);
 }
 
 }  // namespace

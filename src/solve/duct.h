@@ -25,7 +25,7 @@ class DuctDiscrete final : public Discrete {
   const DuctSpace& space() const { return *space_; }
   DuctSystem& system() override { return *system_; }
   const DuctSystem& system() const { return *system_; }
-  double half_length() const override { return space().mesh().geometry().half_length(); }
+  double half_length() const override { return space().mesh().geometry().end(); }
 
   Contour contour(const Problem&, const VectorXd& unknowns) const override;
   /// By the least principal stretch and tension anywhere (docs/theory-square.md, eq:square-biot).

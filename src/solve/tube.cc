@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "fem/end_loads.h"
 #include "fem/tube_fields.h"
 #include "fem/write_fields.h"
 #include "laws/developed_flow.h"
@@ -23,7 +24,7 @@ void read_flow(const StateView& state, StateNumbers& r) {
   r.reynolds = state.problem.liquid.reynolds * r.cell_velocity;
   r.channel_length = 2 * half;
   // Where the mesh ends the pressure is given.
-  const double outlet = geometry.end() == half ? -undisturbed_pressure_gradient(state.problem.liquid) * half
+  const double outlet = geometry.end() == half ? -undisturbed_inlet_pressure(state.space, state.problem.liquid)
                                                : end_pressure(state.space, state.unknowns, ChannelEnd::downstream);
   r.pressure_drop = end_pressure(state.space, state.unknowns, ChannelEnd::upstream) - outlet;
   r.flow_rate = flow_rate(state.space, state.unknowns);
@@ -197,10 +198,14 @@ std::shared_ptr<Discrete> tube_discrete(const Problem& problem, const Resolution
   return std::make_shared<TubeDiscrete>(problem, resolution);
 }
 
+/// The layers of liquid depend on the radius, and so does whether the channel is longer than it need be, which takes an
+/// element more.
 bool have_same_elements(const Problem& a, const Problem& b, const Resolution& resolution) {
+  const auto elements = [&](const Problem& problem) {
+    return ChannelMesh(geometry_of(problem), resolution.subdivision, spacing_for(problem.liquid)).elements();
+  };
   return spacing_for(a.liquid) == spacing_for(b.liquid) &&
-         layers_for(ChannelGeometry(a.radius_ratio), resolution.subdivision) ==
-             layers_for(ChannelGeometry(b.radius_ratio), resolution.subdivision);
+         std::ranges::equal(elements(a), elements(b), {}, &MeshElement::block, &MeshElement::block);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "case/json_guard.h"
+#include "laws/wall_profile.h"
 #include "result/evolution.h"
 #include "serve/json_member.h"
 #include "view/case_from_json.h"
@@ -102,10 +103,10 @@ class EvolutionLines {
     return line + "\n";
   }
 
-  /// Round the cell, from where it is.
+  /// Round the cell, from where it is, as far as there are fields.
   static Json wall_seen(const Result& result, const TimeFrame& frame) {
     constexpr int samples = 120;
-    const double half = frame.state.channel_length / 2;
+    const double half = frame.state.channel_length / 2 + run_out(result.problem.wall);
     WallLine line = wall_line(result.problem, result.scales, frame.position - half, frame.position + half, samples);
     for (double& x_um : line.x_um) x_um -= result.scales.length_um() * frame.position;
     return {{"x_um", line.x_um}, {"r_um", line.distance_um}};

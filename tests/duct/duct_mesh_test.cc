@@ -76,6 +76,23 @@ TEST(DuctMesh, ALongDuctEndsWithOneElementMore) {
   EXPECT_NEAR(volumes(DuctMesh(longer, {}), 4).all, 10, 1e-4);
 }
 
+TEST(DuctMesh, ItGoesOnBeyondTheDuctThatIsToldOf) {
+  // By the run-out, with a plane between elements where the duct ends that is told of.
+  const DuctGeometry geometry({.radius = 0.5, .length = 14, .run_out = 2.5});
+  EXPECT_EQ(geometry.half_length(), 7);
+  EXPECT_EQ(geometry.end(), 9.5);
+  const DuctMesh mesh(geometry, {}, Symmetry::quarter);
+  EXPECT_NEAR(volumes(mesh, 4).all, 9.5 * 2, 1e-4);
+  for (const double outward : {1.0, 2.0}) {
+    const double x = outward == 1 ? 7 : 9.5;
+    for (const double sign : {1.0, -1.0}) EXPECT_EQ(geometry.map(Part::end, {sign, 0.3, 0.6}, outward)(0), sign * x);
+  }
+  const auto ends_at_plane = [](const DuctElement& e) {
+    return e.part == Part::end && std::abs(e.outward[1] - 1) < 1e-12;
+  };
+  EXPECT_EQ(std::ranges::count_if(mesh.elements(), ends_at_plane), 2 * 6);
+}
+
 TEST(DuctMesh, NeighboursShareTheirNodes) {
   // Euler's count of the mesh of 57 hexahedra at degree 1: vertices of the cell, the liquid and the ends.
   const DuctMesh mesh(DuctGeometry(Section::square, 0.6), {.along = 3, .layers = 2, .axial = 2});

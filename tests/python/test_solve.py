@@ -83,6 +83,17 @@ def test_a_session_starts_from_its_states_and_answers_the_same(paper):
     assert warm.case["cell"]["bulk"]["young_modulus_kPa"] == 4.2
 
 
+def test_all_numbers_of_a_session_are_those_of_a_state_from_nothing(paper):
+    session, case = Session(), Case(paper)
+    for radius, modulus in [(6.9, 4.0), (6.2, 4.0), (5.6, 4.2), (5.8, 4.1)]:
+        case.cell.radius_um, case.cell.bulk.young_modulus_kPa = radius, modulus
+        warm, cold = session.solve(case), rheocyte.solve(case)
+        for name, error in warm.errors.items():
+            if error is not None:
+                assert warm[name] == pytest.approx(cold[name], rel=1e-9, abs=error), name  # rounding, or the stated error
+    assert session.warm_starts == 3
+
+
 def test_a_state_that_does_not_exist_is_a_result_and_raises_on_check(paper):
     paper["cell"]["bulk"] = {"young_modulus_kPa": 0.2}
     result = rheocyte.solve(paper)

@@ -40,6 +40,37 @@ TEST_F(CellRoutes, AWarmStateIsTheSameWithinTheToleranceOfNewton) {
   EXPECT_NEAR(warm["deformation"].get<double>() / cold["deformation"].get<double>(), 1, 1e-8);
 }
 
+/// What two answers say of a state differs by no more than rounding, or by the stated error.
+void expect_same_numbers(const Json& warm, const Json& cold) {
+  for (const StateMeasure& measure : state_measures) {
+    const Json &a = warm[measure.name], &b = cold[measure.name];
+    EXPECT_EQ(a.is_null(), b.is_null()) << measure.name;
+    if (a.is_null() || b.is_null()) continue;
+    const double stated = warm["errors"][measure.name].get<double>(), value = b.get<double>();
+    EXPECT_NEAR(a.get<double>(), value, std::max(stated, 1e-9 * std::abs(value))) << measure.name;
+  }
+  const auto pressures = [](const Json& state) { return floats(state["fields"]["values"]["pressure_Pa"]); };
+  const std::vector<float> a = pressures(warm), b = pressures(cold);
+  if (a.size() != b.size()) return;  // another mesh
+  double greatest = 0, difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    greatest = std::max<double>(greatest, std::abs(b[i]));
+    difference = std::max<double>(difference, std::abs(a[i] - b[i]));
+  }
+  EXPECT_LT(difference, 1e-5 * greatest);  // single precision, and Newton's tolerance
+}
+
+TEST_F(CellRoutes, AStreamInWhichTheRadiusChangesHasTheNumbersOfStatesFromNothing) {
+  // With it the length of the channel changes, and so do the pressures at its ends.
+  Json moved = cell();
+  for (const double radius : {6.9, 6.7, 6.0, 3.0, 3.2}) {
+    SCOPED_TRACE(radius);
+    moved["cell"]["radius_um"] = radius;
+    const Json warm = json("/api/state", moved, {{"stream", "s"}, {"fields", "1"}});
+    expect_same_numbers(warm, json("/api/state", moved, {{"fields", "1"}}));
+  }
+}
+
 TEST_F(CellRoutes, TheAccuracyOfARequestReplacesThatOfTheCase) {
   const Json state = json("/api/state", cell(), {{"accuracy", "1e-2"}});
   EXPECT_EQ(state["case"]["numerics"]["accuracy"], 1e-2);
