@@ -108,8 +108,8 @@ for (const width of [1280, 1920])
       for (const name of ['control_of_today', 'drug_of_today', 'control', 'drug'])
         assert.equal(await page.locator('.violins .plot-axes text', { hasText: new RegExp(`${name}$`) }).count() > 0, true, name);
 
-      const { x, y } = await recordings.pixelIn(page, 0.4, 0.6);
-      await page.mouse.click(x, y);
+      await recordings.plotOf(page).focus();
+      await page.keyboard.press('n');
       await page.locator('.modulus .large', { hasText: 'kPa' }).waitFor();
       assert.match(await page.locator('.modulus').textContent(), /as of an elongated cell.*E \S+ ± \S+ kPa from deformation/);
       for (const field of await page.locator('.setting input[placeholder="automatic"]').all())

@@ -122,7 +122,7 @@ test('A recording that changes on disk is read again, and its moduli are gone', 
     await recordings.computeModuli(page);
     await recordings.plotOf(page).focus();
     await page.keyboard.press('n');
-    await page.locator('.modulus .symbol').waitFor();
+    await page.locator('.modulus .large .symbol').waitFor();
     const file = join(folder, '2026-03-01_M001_control.rtdc');
     await writeFile(file, await readFile(join(folder, '2026-03-01_M007_control.rtdc')));
     await page.getByText('2026-03-01_M001_control.rtdc has changed on disk and was read again.').waitFor();

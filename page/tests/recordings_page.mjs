@@ -46,6 +46,13 @@ export async function statisticsOf(page, item) {
   return Object.fromEntries(heads.map((head, k) => [head, cells[k]]));
 }
 
+/** Those of the first recording to ten digits, by the heads of their columns. */
+export async function exactStatistics(page) {
+  const heads = await page.locator('.statistics thead th').allTextContents();
+  const titles = await page.locator('.statistics tr[data-item="0"] > *').evaluateAll((cells) => cells.map((cell) => cell.title || cell.textContent));
+  return Object.fromEntries(heads.map((head, k) => [head, titles[k]]));
+}
+
 export const numberIn = (text) => Number(text.replace(/[\u202f\s]/g, '').replace('\u2212', '-'));
 
 /** Computes the moduli of the recording in focus and waits for their statistics. */

@@ -47,13 +47,6 @@ async function computeAt(page, degrees) {
   await recordings.computeModuli(page);
 }
 
-/** Numbers of the table of statistics to ten digits, by the heads of their columns. */
-async function exactStatistics(page) {
-  const heads = await page.locator('.statistics thead th').allTextContents();
-  const titles = await page.locator('.statistics tr[data-item="0"] > *').evaluateAll((cells) => cells.map((cell) => cell.title || cell.textContent));
-  return Object.fromEntries(heads.map((head, k) => [head, titles[k]]));
-}
-
 function assertSame(found, { summary }) {
   const six = (text) => Number(Number(text).toPrecision(6)); // the summary has six digits
   assert.equal(recordings.numberIn(found['With value']), Number(summary.valid) + Number(summary.regularised) + Number(summary.inertial));
@@ -85,7 +78,7 @@ test('Each setting that the program declares has a field, but for gates, which t
 test("Statistics of the page are those of the command line's summary", { skip }, () =>
   inPage([many], async (page) => {
     await computeAt(page, 23);
-    assertSame(await exactStatistics(page), await extracted(many, '--temperature', '23'));
+    assertSame(await recordings.exactStatistics(page), await extracted(many, '--temperature', '23'));
   }),
 );
 
@@ -99,7 +92,7 @@ test('A gate of the page is --min and --max of the command line', { skip }, () =
     await page.keyboard.press('Enter');
     await page.getByText(/ of 5\u202f000 events/).waitFor();
     await page.getByRole('tab', { name: 'Statistics' }).click();
-    assertSame(await exactStatistics(page), await extracted(many, '--temperature', '23', '--min', 'area_um=40', '--max', 'area_um=80'));
+    assertSame(await recordings.exactStatistics(page), await extracted(many, '--temperature', '23', '--min', 'area_um=40', '--max', 'area_um=80'));
     const command = await page.locator('.command code').textContent();
     assert.ok(command.endsWith('--temperature 23 --min area_um=40 --max area_um=80'), command);
   }),
@@ -122,7 +115,7 @@ test('A polygon gate of the page is --polygon of the command line', { skip }, ()
     assert.ok(polygon, command);
     const wanted = await extracted(many, '--temperature', '23', '--polygon', polygon);
     assert.ok(Number(wanted.summary.valid) > 100, 'the polygon holds some events');
-    assertSame(await exactStatistics(page), wanted);
+    assertSame(await recordings.exactStatistics(page), wanted);
   }),
 );
 

@@ -15,13 +15,13 @@ import { useOrigin } from './StatisticsTable';
 import { useSize } from './use_size';
 import { valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
-const slots = { least: 46, greatest: 92 };
+const slots = { least: 46, greatest: 120 };
 const height = 210;
 const left = 62;
 const right = 12;
 const inner = { top: 8, bottom: 34 };
 /** Where names do not fit side by side they are inclined, so far below the axis and so long, in pixels. */
-const inclined = { deep: 44, long: 84 };
+const inclined = { deep: 54, long: 104 };
 
 interface Entry {
   item: Item;
@@ -159,7 +159,7 @@ function runsOf(entries: Entry[]): { condition: string; first: number; count: nu
     if (last?.condition === condition) ++last.count;
     else found.push({ condition, first: k, count: 1 });
   });
-  return found;
+  return found.filter(({ condition }) => condition !== '');
 }
 
 /** As many letters as fit into so many pixels. */
