@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image  # matplotlib needs it, too
+from PIL.PngImagePlugin import PngInfo
 
 from rheocyte.errors import InputError, reason
 
@@ -83,7 +84,7 @@ def save_figure(figure, stem, dpi=400, palette=False, svg_dpi=300):
     with ThreadPoolExecutor(1) as other:
         png = other.submit(packed, image, dpi, palette)
         svg = io.BytesIO()
-        figure.savefig(svg, format="svg", dpi=svg_dpi, metadata={"Date": None})
+        figure.savefig(svg, format="svg", dpi=svg_dpi, metadata={"Date": None, "Creator": "rheocyte"})
         write_file(stem.with_name(stem.name + ".png"), png.result())
     write_file(stem.with_name(stem.name + ".svg"), svg.getvalue())
 
@@ -92,8 +93,9 @@ def packed(image, dpi, palette):
     """A PNG file of an image; with a palette without dithering."""
     if palette:
         image = image.quantize(256, Image.Quantize.MEDIANCUT, dither=0)
-    file = io.BytesIO()
-    image.save(file, format="PNG", optimize=palette, compress_level=COMPRESSION, dpi=(dpi, dpi))
+    file, origin = io.BytesIO(), PngInfo()
+    origin.add_text("Software", "rheocyte")  # by which the program knows its pictures again, as by the creator of an SVG
+    image.save(file, format="PNG", optimize=palette, compress_level=COMPRESSION, dpi=(dpi, dpi), pnginfo=origin)
     return file.getvalue()
 
 

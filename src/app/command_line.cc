@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli.h"
+#include "app/empty_arguments.h"
 #include "app/exit_codes.h"
 #include "case/nearest_name.h"
 #include "case/to_path.h"
@@ -71,6 +72,7 @@ int report(const std::string& sentence, int exit_code) {
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
   try {
     check_command_name(app, argc, argv);
+    if (argc > 1) refuse_empty_arguments(app, {argv + 1, argv + argc});
     app.parse(argc, argv);
     return with_output(exit_code);
   } catch (const CLI::Success& wish) {  // --help, --version

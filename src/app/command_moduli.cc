@@ -11,8 +11,8 @@
 #include "extract/moduli_json.h"
 #include "extract/moduli_recording.h"
 #include "extract/recording_settings.h"
-#include "store/atomic_file.h"
 #include "store/own_file.h"
+#include "store/result_files.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -20,6 +20,13 @@
 namespace rheocyte {
 
 namespace {
+
+/// The files of one recording while they are written.
+struct ModuliFiles {
+  ResultFiles all = {};
+  std::filesystem::path events = {}, summary = {};
+  void publish() { all.publish(); }
+};
 
 /// All recordings of one call.
 class ModuliJob {
@@ -32,20 +39,25 @@ class ModuliJob {
     return run_batch(tasks, options_.batch, options_.measuring.patience_s.value_or(default_patience_s), *this);
   }
 
-  AtomicFile files(const RecordingTask& task) const {
-    check_replaceable(summary_for(task), mark_of_moduli_json, Foreign::keep);
-    const auto file = file_for(task);
-    return AtomicFile(file, [file] { check_replaceable(file, mark_of_events(file), Foreign::keep); });
+  ModuliFiles files(const RecordingTask& task) const {
+    ModuliFiles made;
+    made.events = made.all.add(
+        file_for(task), [place = file_for(task)] { check_replaceable(place, mark_of_events(place), Foreign::keep); });
+    made.summary = made.all.add(summary_for(task), [place = summary_for(task)] {
+      check_replaceable(place, mark_of_moduli_json, Foreign::keep);
+    });
+    return made;
   }
 
-  ModuliSummary work(const RecordingTask& task, const AtomicFile& file, const TellProgress& report_progress) const {
-    ModuliText text(file.scratch());
-    return moduli_of_recording(task.recording, options_, table_, threads_, text, report_progress);
+  ModuliSummary work(const RecordingTask& task, const ModuliFiles& files, const TellProgress& report_progress) const {
+    ModuliText text(files.events);
+    const ModuliSummary summary =
+        moduli_of_recording(task.recording, options_, table_, threads_, text, report_progress);
+    write_for(summary_for(task), files.summary, moduli_json(task.recording, table_.name, summary));
+    return summary;
   }
 
   bool take(const RecordingTask& task, const ModuliSummary& summary) const {
-    replace_own_file(summary_for(task), moduli_json(task.recording, table_.name, summary), mark_of_moduli_json,
-                     Foreign::keep);
     const std::string name = one_line(task.recording.string(), 200);
     if (!options_.batch.quiet) {
       print(fmt::format("{}: {}, see {}\n", name, in_one_line(summary), file_for(task).string()));

@@ -2,25 +2,19 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "app/cli.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/extract_options.h"
+#include "app/population_folder.h"
 #include "app/recording_batch.h"
-#include "case/to_path.h"
 #include "case/user_error.h"
-#include "extract/companion_origin.h"
-#include "extract/population_companion.h"
 #include "extract/population_json.h"
 #include "extract/population_spec.h"
-#include "extract/population_tables.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
 #include "store/isolated.h"
-#include "store/own_file.h"
-#include "store/python_package.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -37,52 +31,6 @@ PopulationEvents read(const fs::path& recording, const PopulationOptions& option
   return read_isolated(recording, options.measuring, options.quiet, [&](const TellProgress& report_progress) {
     return read_population_events(recording, options.measuring, by, report_progress);
   });
-}
-
-fs::path events_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {
-  return folder / to_path(fmt::format("events_{}_{}.tsv", report.conditions[r.condition].name, r.session + 1));
-}
-
-fs::path companion_file(const fs::path& folder, const RecordingReport& r, const PopulationReport& report) {
-  return events_file(folder, r, report).replace_extension(".rtdc");
-}
-
-/// What an earlier run has left there and this one may not write anew.
-void remove_earlier(const fs::path& folder) {
-  std::error_code none;
-  for (const char* const picture :
-       {"population.png", "population.svg", "population-checks.png", "population-checks.svg"})
-    fs::remove(folder / picture, none);
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    fs::path file = entry.path();
-    if (!file.filename().string().starts_with("events_") || !is_own_file(file, mark_of_population_events)) continue;
-    fs::remove(file, none);
-    fs::remove(file.replace_extension(".rtdc"), none);
-  }
-}
-
-void write_companion(const fs::path& place, const RecordingReport& r, const PopulationOptions& options) {
-  AtomicFile file = population_companion_file(place);
-  const std::string missing =
-      read_isolated(r.recording, options.measuring, options.quiet, [&](const TellProgress& report_progress) {
-        return write_population_companion(file.scratch(), r, report_progress);
-      });
-  file.publish();
-  if (!missing.empty())
-    tell(fmt::format("{}: uses so many of userdef0 to userdef9 itself that its companion lacks: {}.",
-                     one_line(r.recording.string(), 200), missing));
-}
-
-void write(const PopulationOptions& options, const PopulationReport& report) {
-  const fs::path& folder = options.folder;
-  remove_earlier(folder);
-  replace_own_file(folder / "population.json", population_json(report), mark_of_population_json, Foreign::keep);
-  replace_own_file(folder / "population.tsv", population_table(report), mark_of_population_table, Foreign::keep);
-  for (const auto& r : report.recordings)
-    if (const std::string events = population_events_table(r); !events.empty()) {
-      replace_own_file(events_file(folder, r, report), events, mark_of_population_events, Foreign::keep);
-      write_companion(companion_file(folder, r, report), r, options);
-    }
 }
 
 void tell_recording(const RecordingReport& r) {
@@ -112,21 +60,13 @@ PopulationSpec asked_for(const PopulationCall& call) {
   return spec;
 }
 
-void draw(std::optional<Drawing>& drawing, const fs::path& folder) {
-  if (!drawing) return;
-  if (const auto failure = drawing->finish(folder); !failure.empty())
-    tell(fmt::format("rheocyte: warning: no pictures ({}); the numbers are complete.", one_line(failure, 300)));
-}
-
 int run(const PopulationCall& call) {
   const auto [options, conditions] = asked_for(call);
   check_options(options.measuring);
-  check_replaceable(options.folder / "population.json", mark_of_population_json, Foreign::keep);
   for (const auto& condition : conditions)
     for (const auto& recording : condition.recordings) check_is_there(recording);
   const ResultFolderGuard place(options.folder, {});
-  std::optional<Drawing> drawing;  // loads while the recordings are read
-  if (!call.no_picture) drawing.emplace("population_picture");
+  PopulationFolder results(options, conditions, !call.no_picture);
   PopulationAnalysis analysis(options, conditions);
   for (std::size_t c = 0; c < conditions.size(); ++c)
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
@@ -134,8 +74,7 @@ int run(const PopulationCall& call) {
       tell_recording(analysis.add(c, j, events, go_on_unless_stopped));
     }
   const PopulationReport report = analysis.report();
-  write(options, report);
-  draw(drawing, options.folder);
+  results.write(report);
   for (const auto& warning : report.warnings) tell(warning);
   if (!options.quiet) {
     for (const std::string& line : population_lines(report)) print(line + "\n");

@@ -80,6 +80,7 @@ int solve_case(const SolveOptions& options) {
     return solve_stationary(problem, progress, work_limits(options), lines);
   });
 
+  if (const std::string missing = missing_gradients(result); !missing.empty()) tell("rheocyte: " + missing);
   if (!is_written) return report_result(result, options, to_json(result));
   ResultFolder folder(options.folder);
   return finish_result(result, folder, options, to_json(result), drawing);

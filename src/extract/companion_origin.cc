@@ -34,7 +34,9 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& fold
   return paths;
 }
 
-[[noreturn]] void refuse_to_replace(const fs::path& place, const char* what) {
+std::string log_of(const std::string& command) { return "rheocyte-" + command; }
+
+[[noreturn]] void refuse_to_replace(const fs::path& place, const std::string& what) {
   refuse_path(place, fmt::format("is there and {}; move it away, or name another folder with -o.", what));
 }
 
@@ -45,6 +47,21 @@ std::optional<Metadata> metadata_in(const fs::path& place) {
   } catch (const UserError&) {
     return std::nullopt;
   }
+}
+
+/// Whether a file is a recording with the log of a companion of this command. Nothing once the user wants to stop.
+std::optional<bool> look_for_log(const std::string& command, const fs::path& file) {
+  const auto has_our_log = [&](const TellProgress&) {
+    try {
+      return has_log(Recording(file), log_of(command));
+    } catch (const UserError&) {  // no recording at all
+      return false;
+    }
+  };
+  const auto looked = run_isolated(has_our_log, {}, [](double) {});
+  if (looked.stopped()) return {};
+  if (looked.end.kind == IsolatedEnd::Kind::user_error) throw UserError(looked.end.text);
+  return looked.finished() && looked.result;
 }
 
 }  // namespace
@@ -69,23 +86,18 @@ void add_origin(CompanionFile& companion, const std::string& command, const Reco
   std::vector<std::string> log{fmt::format("{} {}", program(), command), "time: " + now_utc(),
                                "recording: " + recording.file().filename().string()};
   log.insert(log.end(), lines.begin(), lines.end());
-  companion.add_log("rheocyte-" + command, log);
+  companion.add_log(log_of(command), log);
   companion.add_basin(paths_to(recording.file(), folder));
 }
 
-void check_companion(const fs::path& place) {
+bool is_companion_of(const std::string& command, const fs::path& file) {
+  return look_for_log(command, file).value_or(false);
+}
+
+void check_companion(const std::string& command, const fs::path& place) {
   std::error_code error;
-  if (!fs::exists(place, error)) return;
-  // Our own say in their metadata which program has written them.
-  const auto is_ours = [&](const TellProgress&) {
-    const auto metadata = metadata_in(place);
-    const auto programs = metadata ? metadata->text("setup:software version") : std::nullopt;
-    return programs && programs->find("rheocyte ") != std::string::npos;
-  };
-  const auto looked = run_isolated(is_ours, {}, [](double) {});
-  if (looked.end.kind == IsolatedEnd::Kind::user_error) throw UserError(looked.end.text);
-  if (!looked.stopped() && !(looked.finished() && looked.result))
-    refuse_to_replace(place, "was not written by rheocyte");
+  if (fs::exists(place, error) && !look_for_log(command, place).value_or(true))
+    refuse_to_replace(place, "was not written by rheocyte " + command);
 }
 
 void check_same_recording(const fs::path& place, const Recording& original) {

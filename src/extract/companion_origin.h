@@ -25,9 +25,12 @@ void describe_feature(CompanionFile& companion, const std::string& feature, cons
 void add_origin(CompanionFile& companion, const std::string& command, const Recording& recording,
                 const std::filesystem::path& folder, const std::vector<std::string>& lines);
 
-/// UserError if a file stands there that this program did not write. It is read in a process of its own, as it may be
-/// any file.
-void check_companion(const std::filesystem::path& place);
+/// Whether a file is a companion that this command has written: by its log, which no other recording has, those of
+/// `rheocyte synth` neither. It is read in a process of its own, as it may be any file.
+bool is_companion_of(const std::string& command, const std::filesystem::path& file);
+
+/// UserError if something stands there that is no companion of this command.
+void check_companion(const std::string& command, const std::filesystem::path& place);
 
 /// UserError if a companion of another recording stands there: calls for single recordings of one name may write into
 /// one folder.

@@ -127,25 +127,11 @@ class Writers {
 }  // namespace
 
 ExtractFiles::ExtractFiles(const ExtractOutput& output, bool with_events)
-    : place_(output.companion),
-      for_ourselves_(output.for_ourselves),
-      companion_(output.companion, [place = output.companion] { check_companion(place); }) {
+    : place_(output.companion), for_ourselves_(output.for_ourselves) {
   if (with_events)
-    events_.emplace(output.events,
-                    [place = output.events] { check_replaceable(place, mark_of_events(place), Foreign::keep); });
-}
-
-std::optional<fs::path> ExtractFiles::events() const {
-  if (!events_) return {};
-  return events_->scratch();
-}
-
-void ExtractFiles::publish() {
-  // Two calls on one recording leave the files of one of them.
-  const Claim alone = wait_for_folder(place_.parent_path());
-  companion_.check();
-  if (events_) events_->publish();
-  companion_.publish();
+    events_ = files_.add(output.events,
+                         [place = output.events] { check_replaceable(place, mark_of_events(place), Foreign::keep); });
+  companion_ = files_.add(place_, [place = place_] { check_companion("extract", place); });
 }
 
 void check_against_tables(const ExtractOptions& options, const ModulusTables& tables) {

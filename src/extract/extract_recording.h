@@ -6,8 +6,8 @@
 #include "extract/extract_summary.h"
 #include "extract/modulus_tables.h"
 #include "extract/options.h"
-#include "store/atomic_file.h"
 #include "store/progress.h"
+#include "store/result_files.h"
 
 namespace rheocyte {
 
@@ -25,20 +25,20 @@ class ExtractFiles {
   /// Makes them empty, under hidden names. UserError, also if a file stands there that is not ours.
   ExtractFiles(const ExtractOutput& output, bool with_events);
 
-  const std::filesystem::path& companion() const { return companion_.scratch(); }
+  const std::filesystem::path& companion() const { return companion_; }
   /// Where the companion will stand.
   const std::filesystem::path& place() const { return place_; }
   bool for_ourselves() const { return for_ourselves_; }
   /// Nothing if no table of events is wanted.
-  std::optional<std::filesystem::path> events() const;
+  const std::optional<std::filesystem::path>& events() const { return events_; }
   /// Puts all in their places, unless files that are not ours have come there meanwhile. UserError.
-  void publish();
+  void publish() { files_.publish(); }
 
  private:
-  std::filesystem::path place_;
+  ResultFiles files_;
+  std::filesystem::path place_, companion_;
+  std::optional<std::filesystem::path> events_;
   bool for_ourselves_;
-  AtomicFile companion_;
-  std::optional<AtomicFile> events_;
 };
 
 /// UserError if the options ask for something that the table does not have.

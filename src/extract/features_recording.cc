@@ -77,7 +77,7 @@ class OutlineReader {
 }  // namespace
 
 AtomicFile features_file(const fs::path& place) {
-  return AtomicFile(place, [place] { check_companion(place); });
+  return AtomicFile(place, [place] { check_companion("features", place); });
 }
 
 FeaturesSummary features_of_recording(const fs::path& file, const fs::path& place, const fs::path& scratch,

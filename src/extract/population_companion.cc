@@ -46,10 +46,6 @@ std::vector<double> values_of(const RecordingReport& report, const ShrunkenColum
 
 }  // namespace
 
-AtomicFile population_companion_file(const std::filesystem::path& place) {
-  return AtomicFile(place, [place] { check_companion(place); });
-}
-
 std::string write_population_companion(const std::filesystem::path& scratch, const RecordingReport& report,
                                        const TellProgress& on_progress) {
   Recording recording(report.recording);

@@ -3,15 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "store/atomic_file.h"
 #include "store/progress.h"
 
 namespace rheocyte {
 
 struct RecordingReport;
-
-/// Where the companion will stand. UserError if a file is there that is not ours.
-AtomicFile population_companion_file(const std::filesystem::path& place);
 
 /// Writes the shrunken values of the events as features userdef0 to userdef9 that the recording does not use itself:
 /// Young's modulus and radius, each with the standard deviation of its logarithm; NaN of events that were left out.

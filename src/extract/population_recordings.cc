@@ -9,6 +9,7 @@
 #include <set>
 
 #include "case/refuse_path.h"
+#include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
 #include "extract/plausibility.h"
@@ -25,17 +26,33 @@ constexpr std::array measure_words{std::pair(std::string_view("asymmetry"), Stif
                                    std::pair(std::string_view("odd-deformation"), StiffnessMeasure::odd_deformation),
                                    std::pair(std::string_view("deformation"), StiffnessMeasure::deformation)};
 
+/// The name that begins with this part; then it is the next one's turn. A name with commas is one where there is such a
+/// file.
+std::string next_name(const std::vector<std::string>& parts, std::size_t& part) {
+  std::string name;
+  for (std::size_t end = part; end < parts.size(); ++end) {
+    std::error_code error;
+    name += (end > part ? "," : "") + parts[end];
+    if (!fs::is_regular_file(to_path(name), error)) continue;
+    part = end + 1;
+    return name;
+  }
+  return parts[part++];
+}
+
 PopulationCondition condition_of(const std::string& text) {
   const auto sign = text.find('=');
+  const auto refuse = [&text](const char* how) {
+    throw UserError(fmt::format("rheocyte: --condition {}: {}", one_line(text, 60), how));
+  };
   if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
-    throw UserError(fmt::format(
-        "rheocyte: --condition {}: give a name and its recordings, for example --condition control=A.rtdc,B.rtdc.",
-        one_line(text, 60)));
+    refuse("give a name and its recordings, for example --condition control=A.rtdc,B.rtdc.");
   PopulationCondition condition{text.substr(0, sign), {}};
-  for (std::size_t first = sign + 1; first <= text.size();) {
-    const std::size_t last = std::min(text.find(',', first), text.size());
-    if (last > first) condition.recordings.push_back(to_path(text.substr(first, last - first)));
-    first = last + 1;
+  const std::vector<std::string> parts = split(std::string_view(text).substr(sign + 1), ',');
+  for (std::size_t part = 0; part < parts.size();) {
+    const std::string name = next_name(parts, part);
+    if (name.empty()) refuse("the name of a recording is empty.");
+    condition.recordings.push_back(to_path(name));
   }
   return condition;
 }

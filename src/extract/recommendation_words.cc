@@ -97,14 +97,14 @@ std::string number_text(const Recommendation& r, const ShapeVerdict& v) {
   }
 }
 
-std::string bound_text(const Recommendation& r) {
+std::string bound_text(const Recommendation& r, const ShapeVerdict& v) {
   const bool is_soft = r.events.place == MedianPlace::below;
   const std::string bound = std::isfinite(r.bound_kPa) ? fmt::format("{} than {:.3g} kPa", r.bound(), r.bound_kPa)
                                                        : fmt::format("{} than the cells of the table", r.bound());
   return fmt::format(
       "no modulus is recommended, only a bound: the median cell is {} ({}). The median of the events with "
-      "a modulus would be that of the {} cells.",
-      bound, share_text(r.events), is_soft ? "stiffer" : "softer");
+      "a modulus would be that of the {} cells.{}",
+      bound, share_text(r.events), is_soft ? "stiffer" : "softer", solid_text(v));
 }
 
 std::string none_text(const Recommendation& r, const ShapeVerdict& v) {
@@ -126,7 +126,7 @@ std::string none_text(const Recommendation& r, const ShapeVerdict& v) {
       return "no modulus is recommended: the cells are not those of the table, and there is no table of elongated "
              "cells "
              "for this channel (section square has one).";
-    case Reason::beyond_table: return bound_text(r);
+    case Reason::beyond_table: return bound_text(r, v);
     default:
       return fmt::format(
           "no modulus is recommended: too few events have one, and the others do not lie on one side ({}).",

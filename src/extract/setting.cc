@@ -21,6 +21,10 @@ struct Taking {
   [[noreturn]] void refuse(std::string_view wanted) const {
     throw UserError(fmt::format("{} must be {}.", what, wanted));
   }
+  void check_filled(std::string_view text) const {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+      throw UserError(fmt::format("{} is empty; give a value, or leave it out.", what));
+  }
   template <class Kind>
   const Kind& as(std::string_view wanted) const {
     if (const Kind* const kind = std::get_if<Kind>(&value)) return *kind;
@@ -37,9 +41,13 @@ struct Taking {
   void operator()(std::string* text) const {
     const auto* const number = std::get_if<double>(&value);
     *text = number ? fmt::format("{}", *number) : as<std::string>("a text");
+    check_filled(*text);
   }
   void operator()(std::optional<std::string>* text) const { (*this)(&text->emplace()); }
-  void operator()(std::vector<std::string>* texts) const { *texts = as<std::vector<std::string>>("a list of texts"); }
+  void operator()(std::vector<std::string>* texts) const {
+    *texts = as<std::vector<std::string>>("a list of texts");
+    for (const std::string& text : *texts) check_filled(text);
+  }
   void operator()(std::optional<Section>* section) const {
     const auto* const word = std::get_if<std::string>(&value);
     if (!word || (*word != tube_word && *word != square_word)) refuse("tube or square");

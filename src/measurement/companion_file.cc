@@ -173,4 +173,9 @@ void CompanionFile::close() {
   c.file.close();
 }
 
+bool has_log(const Recording& recording, const std::string& name) {
+  return ::H5Lexists(recording.root(), "logs", H5P_DEFAULT) > 0 &&
+         ::H5Lexists(recording.root(), ("logs/" + name).c_str(), H5P_DEFAULT) > 0;
+}
+
 }  // namespace rheocyte

@@ -50,4 +50,7 @@ class CompanionFile {
   std::unique_ptr<Content> content_;
 };
 
+/// Whether a recording has a log of this name, as companions have.
+bool has_log(const Recording& recording, const std::string& name);
+
 }  // namespace rheocyte

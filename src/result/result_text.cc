@@ -22,6 +22,12 @@ std::string with_error(const std::string& number, double error) {
   return std::isfinite(error) ? fmt::format("{} +- {:.1g}", number, error) : number;
 }
 
+/// With this many decimals, or, where these would hide the number, with three digits.
+std::string with_decimals(double number, int decimals) {
+  const bool is_hidden = number != 0 && std::abs(number) < std::pow(10, 2 - decimals);
+  return is_hidden ? fmt::format("{:.3g}", number) : fmt::format("{:.{}f}", number, decimals);
+}
+
 std::string seen_from(const Channel& channel) {
   if (channel.camera_degree) return fmt::format("seen at {:g} degrees", *channel.camera_degree);
   if (channel.section == Section::rectangle) return "seen along the height";
@@ -51,7 +57,7 @@ std::string measures_text(const Result& result) {
   const StateNumbers& errors = state.errors;
   const auto& scales = result.scales;
   const double R = scales.length_um(), U = scales.velocity_m_per_s, S = scales.stress_Pa;
-  const auto deformation = [](double d, double error) { return with_error(fmt::format("{:.6f}", d), error); };
+  const auto deformation = [](double d, double error) { return with_error(with_decimals(d, 6), error); };
   std::string text = line("deformation", deformation(shape.deformation, errors.shape.deformation),
                           "raw " + deformation(shape.deformation_raw, errors.shape.deformation_raw));
   const auto area = [&](double a, double error) { return with_error(fmt::format("{:.3f}", a * R * R), error * R * R); };

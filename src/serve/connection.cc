@@ -90,7 +90,7 @@ void Connection::expect_nothing() { deadline_.expires_at(std::chrono::steady_clo
 void Connection::wait_for_request() {
   if (is_closed_) return;
   is_waiting_ = true;
-  shared_.open.splice(shared_.open.end(), shared_.open, place_);
+  if (!is_refused_) shared_.open.splice(shared_.open.end(), shared_.open, place_);
   if (buffer_.size() > 0) return read_head();
   expect_within(idle_time);
   socket_.async_read_some(buffer_.prepare(read_at_once), [self = shared_from_this()](error_code error, std::size_t n) {
@@ -126,14 +126,24 @@ void Connection::take_head() {
   head_ = head_of_parser();
   version_ = parser_->get().version();
   is_last_ = !parser_->keep_alive();
-  is_waiting_ = false;
+  is_waiting_ = is_refused_ = false;
   auto seen = shared_.site.look_at(head_);
   const std::size_t* length = std::get_if<std::size_t>(&seen);
   if (length && *length == 0) return make_answer({});
   if (length && shared_.body_bytes + *length <= max_bodies) return read_body(*length);
   has_unread_ = head_.has_body();
-  give(length ? refusal(503, "busy", "Too much is sent to the server at once; try again.")
-              : std::get<Answer>(std::move(seen)));
+  if (length) return give_refusal(refusal(503, "busy", "Too much is sent to the server at once; try again."));
+  auto& answer = std::get<Answer>(seen);
+  constexpr int least_refusal = 400;
+  if (answer.status >= least_refusal) return give_refusal(std::move(answer));
+  give(std::move(answer));
+}
+
+// Until it is gone, or asks for something that it may have, it is the first to be closed.
+void Connection::give_refusal(Answer answer) {
+  is_refused_ = true;
+  shared_.open.splice(shared_.open.begin(), shared_.open, place_);
+  give(std::move(answer));
 }
 
 void Connection::read_body(std::size_t length) {
@@ -205,8 +215,8 @@ void Connection::refuse(error_code error) {
   head_ = {};
   is_waiting_ = false;
   has_unread_ = true;
-  give(error == protocol::error::header_limit ? refusal(431, "size", "The head of the request is too long.")
-                                              : refusal(400, "request", "The request cannot be understood."));
+  give_refusal(error == protocol::error::header_limit ? refusal(431, "size", "The head of the request is too long.")
+                                                      : refusal(400, "request", "The request cannot be understood."));
 }
 
 void Connection::give(Answer answer) {

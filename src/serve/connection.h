@@ -29,7 +29,7 @@ class Connection;
 struct SharedByConnections {
   const Site& site;
   AnswerThreads threads = {};
-  std::list<Connection*> open = {};  ///< those that have waited longest for a request first
+  std::list<Connection*> open = {};  ///< those that were refused first, then those that have waited longest
   std::size_t body_bytes = 0;        ///< of all requests that are being read or answered
 };
 
@@ -42,8 +42,9 @@ class Connection final : public Client, public std::enable_shared_from_this<Conn
   void begin();
   /// At once, whatever it does.
   void close();
-  /// Whether no request has come whole, so that its place can be given to another client.
-  bool is_waiting() const { return is_waiting_; }
+  /// Whether its place can be given to another client: no request has come whole, or the last one was refused before
+  /// its body was read.
+  bool is_dispensable() const { return is_waiting_ || is_refused_; }
 
   /// For all threads.
   bool has_left() const override;
@@ -62,6 +63,7 @@ class Connection final : public Client, public std::enable_shared_from_this<Conn
   RequestHead head_of_parser() const;
   void read_body(std::size_t length);
   void make_answer(std::string body);
+  void give_refusal(Answer);
   void answer_in_thread(std::string body);
   bool give_pieces_in_thread(const Answer&);
   bool send_from_thread(std::string_view);
@@ -82,7 +84,7 @@ class Connection final : public Client, public std::enable_shared_from_this<Conn
   RequestHead head_;
   std::string out_head_, out_body_;
   std::size_t body_bytes_ = 0;
-  bool is_waiting_ = false, is_closed_ = false, has_unread_ = false, is_last_ = false;
+  bool is_waiting_ = false, is_refused_ = false, is_closed_ = false, has_unread_ = false, is_last_ = false;
   unsigned version_ = 11;
 
   mutable std::mutex mutex_;  ///< of what follows

@@ -112,11 +112,11 @@ class HttpServer::Inside {
     std::make_shared<Connection>(std::move(socket), shared_)->begin();
   }
 
-  /// Whoever has been silent for longest gives its place.
+  /// Whoever was refused gives its place, or else whoever has been silent for longest.
   bool make_room() {
-    const auto silent = std::ranges::find_if(shared_.open, &Connection::is_waiting);
-    if (silent == shared_.open.end()) return false;
-    (*silent)->close();
+    const auto found = std::ranges::find_if(shared_.open, &Connection::is_dispensable);
+    if (found == shared_.open.end()) return false;
+    (*found)->close();
     return true;
   }
 

@@ -20,6 +20,14 @@ const nlohmann::ordered_json& object_member(const nlohmann::ordered_json& tree, 
   return *found;
 }
 
+const nlohmann::ordered_json& list_member(const nlohmann::ordered_json& tree, std::string_view name) {
+  static const nlohmann::ordered_json none = nlohmann::ordered_json::array();
+  const auto found = tree.find(name);
+  if (found == tree.end()) return none;
+  if (!found->is_array()) throw Refused(400, "input", "\"" + std::string(name) + "\" must be a list.");
+  return *found;
+}
+
 void add_member(std::string& object, std::string_view name, std::string_view json) {
   object.pop_back();
   object.append(",\"").append(name).append("\":").append(json).append("}");

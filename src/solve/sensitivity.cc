@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "solve/warm_start.h"
 
@@ -68,33 +67,38 @@ MatrixXd tangent_times(const Equations& equations, const VectorXd& unknowns, con
   return product;
 }
 
+/// Columns that are not solved are no numbers.
+void keep_solved(const MatrixXd& rest, MatrixXd& V) {
+  for (int j = 0; j < V.cols(); ++j)
+    if (!(rest.col(j).norm() < wanted_residual)) V.col(j).setConstant(no_value);
+}
+
 /// K V = rhs, of columns of length 1, with the factors of this very state: those at hand are of a state nearby, and
-/// would take more substitutions than new ones cost. Bending leaves them a few digits. Nothing where that does not lead
-/// to the solution.
-std::optional<MatrixXd> refined_solution(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
+/// would take more substitutions than new ones cost. Bending leaves them a few digits. Each column for itself: where
+/// the equations are not linear over the smallest change that rounding allows, it is no number.
+MatrixXd refined_solution(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
   NonlinearSystem& system = equations.discrete().system();
   system.linearise(equations.media(), unknowns);
-  if (!system.has_factors()) return std::nullopt;
+  if (!system.has_factors()) return MatrixXd::Constant(rhs.rows(), rhs.cols(), no_value);
   MatrixXd V = system.solve_columns(rhs);
   const VectorXd wanted = sum_of_columns(rhs);
-  for (int refinements = 0; V.allFinite(); ++refinements) {
+  for (int refinements = 0;; ++refinements) {
     if ((wanted - tangent_times(equations, unknowns, sum_of_columns(V))).norm() < wanted_residual) return V;
-    if (refinements == max_refinements) break;
-    V += system.solve_columns(rhs - tangent_times(equations, unknowns, V));
+    const MatrixXd rest = rhs - tangent_times(equations, unknowns, V);
+    if (refinements == max_refinements) return keep_solved(rest, V), V;
+    V += system.solve_columns(rest);
   }
-  return std::nullopt;
 }
 
 /// The same of any columns.
-std::optional<MatrixXd> solved_tangent(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
+MatrixXd solved_tangent(const Equations& equations, const VectorXd& unknowns, const MatrixXd& rhs) {
   const std::vector<int> some = columns_that_are_not_zero(rhs);  // what has no effect at all changes nothing
   MatrixXd V = MatrixXd::Zero(rhs.rows(), rhs.cols());
   if (some.empty()) return V;
   const MatrixXd chosen = columns_of(rhs, some);
   const VectorXd norms = chosen.colwise().norm();
-  const auto solution = refined_solution(equations, unknowns, chosen * norms.cwiseInverse().asDiagonal());
-  if (!solution) return std::nullopt;
-  V(Eigen::all, some) = *solution * norms.asDiagonal();
+  V(Eigen::all, some) =
+      refined_solution(equations, unknowns, chosen * norms.cwiseInverse().asDiagonal()) * norms.asDiagonal();
   return V;
 }
 
@@ -118,13 +122,13 @@ void follow_lines(const Geometry& geometry, const Problem& base, ResolvedState& 
       rhs.col(Eigen::Index(j)) -= point.weight * here.residual(unknowns);
     }
   }
-  const auto slopes = solved_tangent({geometry, base, state, base}, unknowns, rhs);
+  const MatrixXd slopes = solved_tangent({geometry, base, state, base}, unknowns, rhs);
   for (std::size_t j = 0; j < lines.size(); ++j) {
-    if (!slopes) lines[j].clear();
+    const auto slope = slopes.col(Eigen::Index(j));
+    if (!slope.allFinite()) lines[j].clear();
     for (std::size_t i = 0; i < lines[j].size(); ++i) {
       LinePoint& point = lines[j][i];
-      equations[j][i].discrete().describe(point.problem, unknowns + point.change * slopes->col(Eigen::Index(j)),
-                                          point.state);
+      equations[j][i].discrete().describe(point.problem, unknowns + point.change * slope, point.state);
     }
   }
 }

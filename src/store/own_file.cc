@@ -13,23 +13,43 @@ namespace rheocyte {
 
 namespace fs = std::filesystem;
 
-bool is_own_file(const fs::path& path, std::string_view mark) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) && first_bytes(path, mark.size()) == mark;
-}
+namespace {
 
-void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
+template <class IsOurs>
+void check_place(const fs::path& path, Foreign foreign, const IsOurs& is_ours) {
   std::error_code error;
   const auto status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return;
   if (error) refuse_path(path, fmt::format("cannot write there ({}).", error.message()));
   if (fs::is_directory(status)) refuse_path(path, "is a folder; give the name of a file with -o.");
   if (!fs::is_regular_file(status)) refuse_path(path, "is not a regular file; give another name with -o.");
-  if (foreign == Foreign::replace || is_own_file(path, mark)) return;
+  if (foreign == Foreign::replace || is_ours()) return;
   refuse_path(path,
               foreign == Foreign::keep
                   ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
                   : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
+}
+
+}  // namespace
+
+bool is_own_file(const fs::path& path, std::string_view mark) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && first_bytes(path, mark.size()) == mark;
+}
+
+bool is_own_picture(const fs::path& path) {
+  constexpr std::size_t head = 2000;  // behind which a PNG has its pixels, an SVG its drawing
+  constexpr std::string_view of_png("Software\0rheocyte", 17), of_svg = "<dc:title>rheocyte</dc:title>";
+  const std::string start = first_bytes(path, head).value_or("");
+  return start.find(of_png) != std::string::npos || start.find(of_svg) != std::string::npos;
+}
+
+void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
+  check_place(path, foreign, [&] { return is_own_file(path, mark); });
+}
+
+void check_replaceable_picture(const fs::path& path) {
+  check_place(path, Foreign::keep, [&] { return is_own_picture(path); });
 }
 
 void replace_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {

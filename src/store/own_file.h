@@ -17,9 +17,15 @@ inline Foreign foreign(bool force) { return force ? Foreign::replace : Foreign::
 /// Whether it is a file that begins with `mark`.
 bool is_own_file(const std::filesystem::path&, std::string_view mark);
 
+/// Whether it is a picture that this program has drawn: its metadata name it.
+bool is_own_picture(const std::filesystem::path&);
+
 /// UserError if a file, a folder or something else stands in the wanted place that is not ours to replace: that does
 /// not begin with `mark`, or as `foreign` says.
 void check_replaceable(const std::filesystem::path&, std::string_view mark, Foreign foreign);
+
+/// The same of a picture.
+void check_replaceable_picture(const std::filesystem::path&);
 
 /// Writes `content` beside the wanted place and renames it; makes the parent folders. An existing file is replaced if
 /// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or as `foreign` says.

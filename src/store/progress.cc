@@ -39,8 +39,9 @@ std::function<void()> now_and_then(std::function<void()> tell) {
 }
 
 void FileProgress::operator()(double fraction) {
+  static const bool is_seen = ::isatty(STDERR_FILENO) == 1;  // a log is for what is said about the recording
   const int percent = static_cast<int>(100 * fraction);
-  if (quiet_ || percent == percent_ || seconds_since(last_line_) < seconds_between_fractions) return;
+  if (quiet_ || !is_seen || percent == percent_ || seconds_since(last_line_) < seconds_between_fractions) return;
   last_line_ = std::chrono::steady_clock::now();
   percent_ = percent;
   tell(fmt::format("{}: {} %", name_, percent));

@@ -12,7 +12,8 @@ using TellProgress = std::function<void(double fraction)>;
 /// As `tell`, but called as often as one likes it calls that only a few times a second.
 std::function<void()> now_and_then(std::function<void()> tell);
 
-/// Of one file: lines "NAME: 40 %" on standard error, at most one in two seconds, and none that says what is known.
+/// Of one file: lines "NAME: 40 %" on standard error where that is a terminal, at most one in two seconds, and none
+/// that says what is known.
 class FileProgress {
  public:
   FileProgress(std::string name, bool quiet) : name_(std::move(name)), quiet_(quiet) {}

@@ -15,6 +15,7 @@
 #include "case/write_case.h"
 #include "result/gradient.h"
 #include "result/write_result.h"
+#include "serve/few_at_once.h"
 #include "serve/json_member.h"
 #include "store/base64.h"
 #include "store/stop_signal.h"
@@ -141,7 +142,13 @@ std::filesystem::path export_picture(const Json& wish, const Request&, ExportFol
 }  // namespace
 
 void add_cell_routes(Router& router, Exports& exports, SolverThreads& threads) {
-  router.add("POST", "/api/state", [&threads](const Request& request) { return state(threads, request); });
+  constexpr int most = 32;
+  const auto under_way =
+      std::make_shared<FewAtOnce>(most, "Many cells are being computed already; wait for some of them.");
+  router.add("POST", "/api/state", [&threads, under_way](const Request& request) {
+    const FewAtOnce::Turn turn = under_way->begin();
+    return state(threads, request);
+  });
   router.add("POST", "/api/case/text",
              [](const Request& request) { return json_answer(case_as_text(case_from_json(request.json()))); });
   router.add("POST", "/api/case/read", read_text);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_name = 120;
-constexpr int most_exports = 4;
 
 bool is_file_name(std::string_view name) {
   const auto is_odd = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
@@ -129,10 +127,7 @@ Answer Exports::answer(const Request& request) {
   const nlohmann::ordered_json wish = request.json();
   const auto found = exports_.find(text_member(wish, "what"));
   if (found == exports_.end()) throw Refused(400, "what", "\"what\" names nothing that can be exported.");
-  const std::unique_ptr<std::atomic<int>, void (*)(std::atomic<int>*)> one_of_few(&under_way_,
-                                                                                  [](auto* count) { --*count; });
-  if (++under_way_ > most_exports)
-    throw Refused(503, "busy", "Several exports are being written already; wait for their end.");
+  const FewAtOnce::Turn turn = under_way_.begin();
   return json_answer({{"file", found->second(wish, request, folder_).string()}});
 }
 

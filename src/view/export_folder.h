@@ -1,6 +1,5 @@
 // The only place that the view writes to.
 #pragma once
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -11,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "serve/few_at_once.h"
 #include "serve/router.h"
 #include "store/system_files.h"
 
@@ -87,7 +87,7 @@ class Exports {
 
   ExportFolder& folder_;
   std::map<std::string, Export, std::less<>> exports_;
-  std::atomic<int> under_way_ = 0;
+  FewAtOnce under_way_{4, "Several exports are being written already; wait for their end."};
 };
 
 }  // namespace rheocyte

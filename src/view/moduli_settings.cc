@@ -49,6 +49,7 @@ ExtractOptions extract_options(const Json& settings, const TableItem& table_item
   Json resolved = settings;
   if (settings.contains("table") && !settings["table"].is_null())
     resolved["table"] = named_table(settings["table"], table_item);
+  if (resolved.value("table", Json()) == "") resolved.erase("table");  // that of the medium
   return options_of_settings(resolved);
 }
 

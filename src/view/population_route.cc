@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "case/json_guard.h"
@@ -11,6 +12,8 @@
 #include "extract/population_json.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
+#include "serve/few_at_once.h"
+#include "serve/json_member.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
 
@@ -43,14 +46,16 @@ Json population_settings(const Json& given) {
 
 /// As the host reads them, and in "command" as a shell does.
 Json population_work(const Json& asked, const ViewItems& items) {
-  Json work{{"do", "population"}, {"settings", population_settings(asked.value("settings", Json::object()))}};
+  const Json settings = asked.contains("settings") ? object_member(asked, "settings") : Json::object();
+  Json work{{"do", "population"}, {"settings", population_settings(settings)}};
   PopulationOptions options = population_options(work["settings"]);
   std::string command = "rheocyte population";
-  for (const Json& condition : asked.value("conditions", Json::array())) {
-    const std::string name = condition.value("name", std::string());
+  for (const Json& condition : list_member(asked, "conditions")) {
+    if (!condition.is_object()) throw UserError("A condition is an object with a name and items.");
+    const std::string name = text_member(condition, "name");
     Json recordings = Json::array();
     std::string files = name;
-    for (const Json& item : condition.value("items", Json::array())) {
+    for (const Json& item : list_member(condition, "items")) {
       if (!item.is_number_unsigned()) throw UserError("items are the numbers of recordings.");
       const auto path = items.recording(item).place.path;
       files += recordings.empty() ? '=' : ',';
@@ -96,7 +101,11 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
 }
 
 void add_population_route(Router& router, ViewItems& items) {
-  router.add("POST", "/api/population", [&items](const Request& request) -> Answer {
+  constexpr int most = 4;
+  const auto under_way =
+      std::make_shared<FewAtOnce>(most, "Several populations are being computed already; wait for their end.");
+  router.add("POST", "/api/population", [&items, under_way](const Request& request) -> Answer {
+    const FewAtOnce::Turn turn = under_way->begin();
     HostedWork work = items.host().ask(json_text(population_work(request.json(), items)));
     work.only_while([client = request.client] { return !client || !client->has_left(); });
     return {.body = work.all()};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -144,6 +145,41 @@ TEST(Gradient, BeginsAtZeroTension) {
   const double slope = solved(c, {tension}).gradients[0].measures(Eigen::Index(index_of("deformation")));
   EXPECT_NEAR(slope, (value(solved(above), "deformation") - value(solved(c), "deformation")) / step,
               2e-3 * std::abs(slope));
+}
+
+/// In power-law liquids the lowest shear rate counts at a few points alone; what it does keeps nothing else away.
+TEST(Gradient, ByOneNumberIsKeptAwayByNoOther) {
+  const Case c = parse_case(R"(
+channel.width_um = 20
+flow.rate_ul_per_s = 0.04
+flow.law = "power-law"
+flow.consistency_Pa_sn = 0.208
+flow.exponent = 0.655
+cell.radius_um = 6.13
+cell.bulk.young_modulus_kPa = 1.457
+)",
+                            "test");
+  const Result all = solved(c, line_keys(c));
+  ASSERT_EQ(all.state.outcome.status, Status::converged) << all.state.outcome.message;
+  EXPECT_EQ(all.gradients.size(), 11U);
+  for (const Gradient& gradient : all.gradients)
+    EXPECT_TRUE(std::isfinite(gradient.measures(Eigen::Index(index_of("area_um2"))))) << gradient.key;
+  // Against solutions of neighbouring cases, whose meshes and errors are their own: at accuracy 1e-3 to 1e-4.
+  const auto of_radius = std::ranges::find(all.gradients, radius, &Gradient::key);
+  ASSERT_NE(of_radius, all.gradients.end());
+  EXPECT_NEAR(of_radius->measures(Eigen::Index(index_of("area_um2"))), 38.84, 0.02);
+}
+
+/// A first tension makes a membrane of a bare surface, whose margin is another number.
+TEST(Gradient, AcrossAJumpOfTheMarginThereIsNone) {
+  constexpr std::string_view tension = "cell.cortex.tension_mN_per_m";
+  const Result result = solved(case_of("numerics.accuracy = 1e-3"), {tension, E});
+  const auto margin = Eigen::Index(index_of("stability_margin")), d = Eigen::Index(index_of("deformation"));
+  EXPECT_TRUE(std::isnan(result.gradients[0].measures(margin)));
+  EXPECT_NE(result.state.outcome.message.find("cell.cortex.tension_mN_per_m (of stability_margin)"), std::string::npos)
+      << result.state.outcome.message;
+  EXPECT_TRUE(std::isfinite(result.gradients[0].measures(d)));
+  EXPECT_TRUE(std::isfinite(result.gradients[1].measures(margin)));
 }
 
 /// The contour moves as the numbers that are measured on it: its greatest height, against a solution nearby.

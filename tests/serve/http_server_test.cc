@@ -221,6 +221,24 @@ TEST(HttpServer, ManySilentConnectionsGiveTheirPlacesToOthers) {
   EXPECT_EQ(silent.front()->read_to_end(), "");
 }
 
+TEST(HttpServer, RefusedConnectionsGiveTheirPlacesBeforeAllOthers) {
+  // More than the server keeps; each announces a body and waits.
+  const Router router = echo();
+  const Served served(router);
+  Wire known(served.port());
+  known.send(request_text(served, "GET", "/api/ping", {}, ""));
+  EXPECT_EQ(status_of(known.read_answer()), 200);
+  std::vector<std::unique_ptr<Wire>> refused;
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(served.port()) + "\r\n";
+  for (int i = 0; i < 600; ++i) {
+    refused.push_back(std::make_unique<Wire>(served.port()));
+    refused.back()->send("POST /api/echo HTTP/1.1\r\n" + host + "Content-Length: 900\r\n\r\n");
+  }
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(status_of(ask(served, "GET", "/api/ping")), 200) << i;
+  known.send(request_text(served, "GET", "/api/ping", {}, ""));
+  EXPECT_EQ(status_of(known.read_answer()), 200) << "has waited for longer than they, and has its place still";
+}
+
 TEST(HttpServer, FiftyClientsAtOnceAreAnsweredWhileOthersSayNothing) {
   const Router router = echo();
   const Served served(router);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/user_error.h"
+#include "serve/few_at_once.h"
 #include "store/system_limit.h"
 
 namespace rheocyte::router_test {
@@ -62,6 +63,24 @@ TEST(Router, WhatTheSystemDoesNotGiveIsNoFaultOfTheRequest) {
   const Answer without_memory = answer("POST", "/api/memory");
   EXPECT_EQ(without_memory.status, 503);
   EXPECT_NE(without_memory.body.find(memory_does_not_suffice), std::string::npos) << without_memory.body;
+}
+
+TEST(Router, OfWorkThatTakesLongOnlyAFewAreUnderWay) {
+  FewAtOnce few(2, "There are two already.");
+  Router router;
+  router.add("GET", "/long", [&few](const Request&) -> Answer {
+    const FewAtOnce::Turn turn = few.begin();
+    return {};
+  });
+  const auto ask = [&] { return router.answer({.method = "GET", .path = "/long"}); };
+  EXPECT_EQ(ask().status, 200);
+  const FewAtOnce::Turn first = few.begin();
+  EXPECT_EQ(ask().status, 200);
+  FewAtOnce::Turn second = few.begin();
+  EXPECT_EQ(ask().status, 503);
+  EXPECT_EQ(ask().status, 503) << "who is refused takes no place";
+  second.reset();
+  EXPECT_EQ(ask().status, 200);
 }
 
 TEST(Router, ObjectsWithVeryManyKeysAreRefused) {

@@ -1,0 +1,20 @@
+// How far a file has come is told where somebody looks on.
+#include "store/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace rheocyte::progress_test {
+namespace {
+
+TEST(FileProgress, IsNoPartOfAnErrorOutputThatIsCaptured) {
+  testing::internal::CaptureStderr();  // a file
+  FileProgress progress("a.rtdc", false);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // from 2 s on a terminal would be told
+  progress(0.63);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace rheocyte::progress_test
