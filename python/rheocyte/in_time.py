@@ -44,6 +44,7 @@ class Evolution:
     """Iterator of the states of rheocyte.evolve.
 
     evolution.history    numbers of all steps so far, a pandas.DataFrame with the columns of history.csv
+    evolution.errors     errors of these numbers, a pandas.DataFrame with the columns of history_errors.csv; waits for the end
     evolution.result     the last state, a Result; waits for the end
     evolution.stop()     ends the computation; so does Ctrl-C in a loop, and what was computed stays
 
@@ -75,10 +76,24 @@ class Evolution:
         return pandas.DataFrame(self._native.history())
 
     @property
-    def result(self):
-        """The last state with all its numbers; waits for the end of the computation."""
+    def errors(self):
+        """Estimated errors of the history, row by row, a pandas.DataFrame with the columns of history_errors.csv.
+
+        Waits for the end of the computation; no rows where they are not known.
+        """
+        import pandas
+
+        self._wait()
+        return pandas.DataFrame(self._native.history_errors())
+
+    def _wait(self):
         while (numbers := self._native.next()) is not None:
             self._waiting.append(State(numbers))
+
+    @property
+    def result(self):
+        """The last state with all its numbers; waits for the end of the computation."""
+        self._wait()
         return Result(self._native.result(), self._case)
 
     def check(self):

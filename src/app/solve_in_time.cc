@@ -57,7 +57,7 @@ class Recorder {
   TimeObserver observer() {
     return {[this](const TimeFrame& frame) { add(frame); },
             [this](const TimePoint& point, const TimeState& state) { add(point, state); },
-            [this](std::span<const TimePoint> steps) { record_.compared_rows = history_rows(steps, result_.scales); }};
+            [this](const TimeWay& errors) { add_errors(errors, result_.scales, record_); }};
   }
 
   TimeRecord& record() { return record_; }
@@ -68,7 +68,9 @@ class Recorder {
     folder_.write("outputs.csv", outputs_csv(record_));
     folder_.write("contours.csv", contours_csv(record_));
     for (const auto& [name, text] : {std::pair("contours_across.csv", contours_across_csv(record_)),
-                                     std::pair("contours_offset.csv", contours_offset_csv(record_))})
+                                     std::pair("contours_offset.csv", contours_offset_csv(record_)),
+                                     std::pair("history_errors.csv", history_errors_csv(record_)),
+                                     std::pair("outputs_errors.csv", outputs_errors_csv(record_))})
       if (!text.empty()) folder_.write(name, text);
     if (!options_.no_output_fields) folder_.write("fields.pvd", field_collection(record_, fields_folder));
     if (const WallTable& wall = result_.problem.wall; !wall.is_straight())
@@ -79,11 +81,11 @@ class Recorder {
   void add(const TimeFrame& frame) {
     const fs::path file = folder_.scratch() / fields_folder / to_path(field_file(record_.frames.size()));
     if (!options_.no_output_fields) write_field_file(frame.state.write_fields, result_.scales, file, options_.folder);
-    record_.frames.push_back(contour_frame(frame, result_.scales));
+    add_frame(frame, result_.scales, record_);
   }
 
   void add(const TimePoint& point, const TimeState& state) {
-    record_.rows.push_back(history_row(point, result_.scales));
+    add_step(point, result_.scales, record_);
     last_state_ = state;
     write_checkpoint_if_due();
     const HistoryRow& row = record_.rows.back();
@@ -123,7 +125,7 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
   std::optional<TimeStart> start;
   if (!options.continue_from.empty()) {
     from = find_checkpoint(options.continue_from, c);
-    start = TimeStart{from->checkpoint.state};
+    start = TimeStart{from->checkpoint.state, {}, from->checkpoint.record.way};
   } else if (!interrupted_results(options.folder).empty()) {
     tell(
         fmt::format("{0}: a computation for it was interrupted; --continue {0} would go on from its last checkpoint, "

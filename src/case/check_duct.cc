@@ -11,11 +11,6 @@ namespace rheocyte {
 
 namespace {
 
-/// Of a key whose value may be its fallback.
-std::string told(const KeyReading& keys, std::string_view key, double value) {
-  return keys.has(key) ? keys.stated(key) : fmt::format("{} = {:g}", key, value);
-}
-
 // So much of the energy that deforms the cell: factors of single precision do not correct stiffer surfaces.
 double max_bending_in_ducts_kBT(const Case& c) {
   constexpr double fraction = 4e-3;
@@ -37,17 +32,6 @@ void check_duct_profile(const Case& c, const KeyReading& keys) {
   if (!has_profile)
     keys.refuse(rounding,
                 fmt::format("{} is for the walls of [channel.profile]; leave it out.", keys.stated(rounding)));
-}
-
-/// Reynolds numbers in RT-DC are about 0.1.
-void check_inertia(const Case& c, const KeyReading& keys) {
-  constexpr std::string_view liquid = "flow.density_kg_per_m3", cell = "cell.density_kg_per_m3";
-  const bool is_of_liquid = c.flow.density_kg_per_m3 != 0;
-  const double density = is_of_liquid ? c.flow.density_kg_per_m3 : c.cell.density_kg_per_m3.value_or(0);
-  if (density == 0) return;
-  const std::string_view key = is_of_liquid ? liquid : cell;
-  keys.refuse(key, fmt::format("{} makes inertia, which is not computed in time in a duct; give {} = 0 and {} = 0.",
-                               told(keys, key, density), liquid, cell));
 }
 
 /// The material turns through the shape (docs/theory-time.md, eq:turning-in-time).
@@ -77,7 +61,6 @@ void check_duct_in_time(const Case& c, const KeyReading& keys) {
   if (c.time.degree.value_or(0) > greatest_degree)
     refuse("time.degree",
            fmt::format("is more than ducts have memory for; at most {:g} are possible", greatest_degree));
-  check_inertia(c, keys);
 }
 
 constexpr double most_unequal_sides = 4;

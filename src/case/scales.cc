@@ -129,12 +129,14 @@ Problem problem_of(const Case& c) {
 
   Problem problem;
   problem.liquid = in_units_of_rate(liquid_of(c.flow), U / R);
-  problem.liquid.reynolds = c.flow.density_kg_per_m3 * U * U / S;
+  // In time in a duct inertia is left out (docs/theory-time.md, sec. 5).
+  const double inertia = is_duct(c.channel.section) && c.time.scheme != TimeScheme::stationary ? 0 : U * U / S;
+  problem.liquid.reynolds = c.flow.density_kg_per_m3 * inertia;
   problem.bulk = {.law = c.cell.bulk.law,
                   .shear_modulus = E / (3 * S),
                   .c1_fraction = c.cell.bulk.c1_fraction.value_or(1),
                   .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
-                  .reynolds = c.cell.density_kg_per_m3.value_or(0) * U * U / S,
+                  .reynolds = c.cell.density_kg_per_m3.value_or(0) * inertia,
                   .rest_stretch = std::pow(c.cell.rest_aspect, 2.0 / 3)};
   if (const auto kind = c.cell.viscoelasticity; kind == Viscoelasticity::maxwell) {
     problem.bulk.branch_modulus = std::exchange(problem.bulk.shear_modulus, 0);

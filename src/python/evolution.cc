@@ -61,16 +61,16 @@ class PythonEvolution {
   /// Columns of history.csv for the steps so far.
   py::dict history() {
     const std::vector<HistoryRow> rows = evolution_->rows();
-    py::dict columns;
-    const auto add = [&](std::string_view name, const auto& value) {
-      std::vector<double> values;
-      for (const HistoryRow& row : rows) values.push_back(value(row));
-      columns[py::str(name)] = array_of(std::move(values));
-    };
-    add("t_us", [](const HistoryRow& row) { return row.t_us; });
-    for (const std::size_t k : known_measures(rows))
-      add(history_measures[k].name, [k](const HistoryRow& row) { return row.measures[k]; });
-    for (const auto& field : history_fields()) add(field.name, field.value);
+    py::dict columns = columns_of(rows, known_measures(rows));
+    for (const auto& field : history_fields()) columns[py::str(field.name)] = column(rows, field.value);
+    return columns;
+  }
+
+  /// Columns of history_errors.csv once all is over; no rows where they are not known.
+  py::dict history_errors() {
+    const std::vector<HistoryRow> errors = evolution_->row_errors();
+    py::dict columns = columns_of(errors, known_measures(evolution_->rows()));
+    columns["position_um"] = column(errors, [](const HistoryRow& row) { return row.position_um; });
     return columns;
   }
 
@@ -80,6 +80,22 @@ class PythonEvolution {
   Result result() const { return evolution_->result(); }
 
  private:
+  template <class Value>
+  static auto column(const std::vector<HistoryRow>& rows, const Value& value) {
+    std::vector<double> values;
+    for (const HistoryRow& row : rows) values.push_back(value(row));
+    return array_of(std::move(values));
+  }
+
+  /// Times and measures.
+  static py::dict columns_of(const std::vector<HistoryRow>& rows, const std::vector<std::size_t>& known) {
+    py::dict columns;
+    columns["t_us"] = column(rows, [](const HistoryRow& row) { return row.t_us; });
+    for (const std::size_t k : known)
+      columns[py::str(history_measures[k].name)] = column(rows, [k](const HistoryRow& row) { return row.measures[k]; });
+    return columns;
+  }
+
   py::dict described(const SeenFrame& frame) const {
     py::dict d;
     d["t_us"] = frame.contour.t_us;
@@ -104,6 +120,7 @@ void bind_evolution(py::module_& module) {
       .def(py::init<const Case&, int>())
       .def("next", &PythonEvolution::next)
       .def("history", &PythonEvolution::history)
+      .def("history_errors", &PythonEvolution::history_errors)
       .def("is_over", &PythonEvolution::is_over)
       .def("stop", &PythonEvolution::stop)
       .def("result", &PythonEvolution::result);

@@ -82,6 +82,11 @@ class Evolution {
     const std::scoped_lock lock(mutex_);
     return record_.rows;
   }
+  /// Of all steps, once they are known.
+  std::vector<HistoryRow> row_errors() const {
+    const std::scoped_lock lock(mutex_);
+    return record_.row_errors;
+  }
   /// Throws what the computation has thrown; once all is over.
   void check() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -103,18 +108,19 @@ class Evolution {
 
   TimeObserver observer() {
     const auto add_frame = [this](const TimeFrame& frame) {
-      record_.frames.push_back(contour_frame(frame, result_.scales));
+      rheocyte::add_frame(frame, result_.scales, record_);
       add(make_item_(frame, *this));
       if (at_item_) at_item_();
     };
     const auto add_step = [this](const TimePoint& point, const TimeState&) {
       const std::scoped_lock lock(mutex_);
-      record_.rows.push_back(history_row(point, result_.scales));
+      rheocyte::add_step(point, result_.scales, record_);
     };
-    const auto compare = [this](std::span<const TimePoint> steps) {
-      record_.compared_rows = history_rows(steps, result_.scales);
+    const auto note_errors = [this](const TimeWay& errors) {
+      const std::scoped_lock lock(mutex_);
+      add_errors(errors, result_.scales, record_);
     };
-    return {add_frame, add_step, compare};
+    return {add_frame, add_step, note_errors};
   }
 
   void add(Item item) {

@@ -20,11 +20,12 @@ constexpr double fraction_of_time = 0.1, fraction_of_distance = 0.1;
 constexpr double fraction_of_stationary = 0.1;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
-  if (result.state.outcome.status != Status::converged) return TimeEnd::failure;
+  const Status status = result.state.outcome.status;
+  if (status != Status::converged && status != Status::error_unknown) return TimeEnd::failure;
   const TimeCase& asked = result.input.time;
   const HistoryRow& last = record.rows.back();
   const double tolerance_um =
-      result.scales.length_um() * place_tolerance(result.problem, time_run_of(result.input, result.scales));
+      result.scales.length_um() * tolerance_of_place(result.problem, time_run_of(result.input, result.scales));
   if (asked.end_um && last.position_um >= (1 - 1e-8) * *asked.end_um - tolerance_um) return TimeEnd::place;
   if (asked.end_us && last.t_us >= (1 - 1e-9) * *asked.end_us) return TimeEnd::time;
   return TimeEnd::settled;
@@ -60,6 +61,21 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
                      tension, when(slack), bends ? "its bending stiffness holds" : "the interior holds");
 }
 
+/// Of a duct, whose inertia is left out: its Reynolds number, which the state gets, by the greater of the densities.
+std::string told_of_inertia(Result& result) {
+  constexpr double considerable = 1;
+  const double density = std::max(result.input.flow.density_kg_per_m3, result.input.cell.density_kg_per_m3.value_or(0));
+  if (!is_duct(result.problem.section) || density == 0) return "";
+  const double U = result.scales.velocity_m_per_s, unit = density * U * U / result.scales.stress_Pa;
+  StationaryState& state = result.state;
+  state.reynolds = unit * state.cell_velocity;
+  state.errors.reynolds = unit * state.errors.cell_velocity;
+  return fmt::format(" Inertia is left out (Reynolds number {:.2g}){}", state.reynolds,
+                     state.reynolds < considerable
+                         ? "."
+                         : ": it is not small, and the stationary shape, without [time], has its inertia.");
+}
+
 /// The straight channel behind the cell's way, if all of the simulated one lies in it and the cell keeps a shape there.
 std::optional<Problem> straight_from_here(const Result& result, const TimeRecord& record) {
   if (result.input.cell.viscoelasticity == Viscoelasticity::maxwell || result.problem.offset != 0) return {};
@@ -85,15 +101,18 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
 }
 
 /// Errors of a settled state's numbers by those of the stationary one; where its channel is another, only of those
-/// without a unit, and where the simulated piece has another length, not of the drop along it.
-StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel, const StateNumbers& settled) {
+/// without a unit, and where the simulated piece has another length, not of the drop along it: those stay.
+StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel, const StationaryState& settled) {
   StateNumbers errors = distance(settled, stationary);
   add_errors(1, stationary.errors, errors);
   for (const StateMeasure& measure : state_measures)
-    if (is_other_channel && unit_of(measure.name).dimension != no_unit.dimension) measure.of(errors) = no_value;
+    if (is_other_channel && unit_of(measure.name).dimension != no_unit.dimension)
+      measure.of(errors) = measure.value(settled.errors);
   constexpr double of_rounding = 1e-9;
-  if (std::abs(settled.channel_length - stationary.channel_length) > of_rounding * stationary.channel_length)
-    errors.channel_length = errors.pressure_drop = no_value;
+  if (std::abs(settled.channel_length - stationary.channel_length) > of_rounding * stationary.channel_length) {
+    errors.channel_length = settled.errors.channel_length;
+    errors.pressure_drop = settled.errors.pressure_drop;
+  }
   return errors;
 }
 
@@ -102,7 +121,10 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const StationaryState stationary = solve_stationary(problem, {}, limits);
   const Status there = stationary.outcome.status;
   const bool failed = record.end == TimeEnd::failure;
-  if (there == Status::stopped) return;
+  if (there == Status::stopped) {
+    if (!failed && std::isnan(result.state.estimated_error)) outcome.status = Status::error_unknown;
+    return;
+  }
   if (!has_state(there)) {
     const bool seems_settled = !failed && (record.end == TimeEnd::settled || has_settled(record, 0, problem.accuracy));
     outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(there),
@@ -132,8 +154,12 @@ bool is_error_unknown(const StationaryState& state) {
   return has_failed && !std::isfinite(state.estimated_error);
 }
 
-/// A finer mesh as far as there is one; else to ask for less. With a greater accuracy the floor falls.
+/// Finer steps where those make most of it. A finer mesh as far as there is one; else to ask for less. With a greater
+/// accuracy the floor falls.
 std::string ways_to_mesh_accuracy(const Problem& problem, const StationaryState& state) {
+  if (state.step_error > state.estimated_error / 2)
+    return fmt::format("the steps make {:.1e} of it: lower time.accuracy.",
+                       std::min(state.step_error, state.estimated_error));
   const int finer = state.statistics.degree + 2;
   if (finer <= max_time_degree_of(problem))
     return fmt::format("take a finer mesh, time.degree = {} in place of time.mesh_accuracy.", finer);
@@ -181,7 +207,7 @@ void judge_end(Result& result, TimeRecord& record, const WorkLimits& limits) {
       problem->accuracy = std::min(problem->accuracy, fraction_of_stationary * wanted);
       compare_with_stationary(result, record, *problem, limits);
     }
-  result.state.outcome.message += told_of_surface(record, result.problem);
+  result.state.outcome.message += told_of_surface(record, result.problem) + told_of_inertia(result);
   judge(result);
 }
 

@@ -67,7 +67,9 @@ std::span<const Field<Result, Json>> outcome_fields() {
       {"version", "of the program", [](const Result&) -> Json { return version; }},
       {"status",
        "\"converged\": the last state is the wanted one, its stability_margin is not negative, its estimated_error not "
-       "above what the case wants; else the name of the reason why not",
+       "above what the case wants; else the name of the reason why not. \"error-unknown\": the last state is the "
+       "wanted "
+       "one, but a signal stopped the computation of its error",
        [](const Result& r) -> Json { return name(r.state.outcome.status); }},
       {"message", "the same in a sentence: what, where, what to try",
        [](const Result& r) -> Json { return r.state.outcome.message; }},
@@ -92,12 +94,12 @@ std::span<const Field<Result, Json>> computation_fields() {
       {"estimated_error",
        "of the deformation, relative to it or to deformation_floor where that is more; of the motion with "
        "numerics.accuracy_of = \"motion\"; null for a state on the way; in time the distance from the stationary shape "
-       "once the cell has settled, else from the same run on another mesh",
+       "once the cell has settled, else from the same run with other steps and on another mesh",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
       {"deformation_floor",
        "errors of smaller deformations are relative to this one: 1e-12 over the wanted accuracy on the axis "
        "(rounding), "
-       "1e-4 off the axis (no recording tells less), time.accuracy over time.mesh_accuracy in time",
+       "1e-4 off the axis (no recording tells less), time.accuracy over time.mesh_accuracy in time, at most 0.01",
        [](const Result& r) -> Json { return r.state.deformation_floor; }},
       {"errors",
        "estimated errors of the measures above, absolute, each under the name and in the unit of its measure; null for "

@@ -58,6 +58,15 @@ std::vector<Row> rows_of_outputs() {
   return rows;
 }
 
+/// Time, place and measures, with the sentences of outputs.csv.
+std::vector<Row> rows_of_errors() {
+  std::vector<Row> rows{{"t_us", "of a run that ends, or of outputs that are, at a place; else 0"},
+                        {"position_um", "of its place at that time"}};
+  for (Row& row : rows_of_outputs())
+    if (row.name != "t_us" && row.name != "position_um") rows.push_back({row.name, "of this measure"});
+  return rows;
+}
+
 std::vector<Chapter> chapters() {
   return {
       {"result.json", "How the computation ended, and for which moduli:", rows_of(outcome_fields())},
@@ -69,6 +78,12 @@ std::vector<Chapter> chapters() {
       {"time in result.json", "Of a case in time:", rows_of(time_fields())},
       {"history.csv", "Of a case in time, one line for each step:", rows_of_history()},
       {"outputs.csv", "Of a case in time, one line for each output, between steps:", rows_of_outputs()},
+      {"history_errors.csv",
+       "Of history.csv, line by line, estimated errors, absolute, each under the name and in the unit of its number; "
+       "not "
+       "there where they are not known (see time.comparison in result.json):",
+       rows_of_errors()},
+      {"outputs_errors.csv", "The same of outputs.csv:", rows_of_errors()},
       {"contour.csv",
        "The surface from the front pole to the rear one, in a square channel or a rectangle along the silhouette "
        "that the camera sees "

@@ -35,20 +35,24 @@ const HistoryRow& slackest(const Rows& rows) {
 
 double place_reached(const Rows& rows) { return rows.back().position_um; }
 double least_tension(const Rows& rows) { return slackest(rows).measure("least_tension_mN_per_m"); }
-double greatest_volume_change(const Rows& rows) {
-  double greatest = 0;
-  for (const HistoryRow& row : rows) greatest = std::max(greatest, std::abs(row.measure("relative_volume_change")));
-  return greatest;
-}
+double volume_change(const HistoryRow& row) { return std::abs(row.measure("relative_volume_change")); }
+const HistoryRow& most_changed(const Rows& rows) { return *std::ranges::max_element(rows, {}, volume_change); }
 
+/// Of an extreme of the way the error is that of the step where it is.
 Json errors_of_way(const TimeRecord& record) {
-  const auto change = [&](double number(const Rows&)) {
-    return record.compared_rows.empty() ? no_value : std::abs(number(record.rows) - number(record.compared_rows));
+  const auto error_at = [&](const HistoryRow& row, const auto& error) {
+    return record.row_errors.empty() ? no_value : error(record.row_errors[std::size_t(&row - record.rows.data())]);
   };
-  return {{"position_um", change(place_reached)},
-          {"least_tension_mN_per_m", change(least_tension)},
-          {"greatest_relative_volume_change", change(greatest_volume_change)},
-          {"stationary_deformation", record.stationary_error}};
+  const auto of_measure = [](std::string_view name) {
+    return [name](const HistoryRow& errors) { return errors.measure(name); };
+  };
+  const HistoryRow& last = record.rows.back();
+  return {
+      {"t_us", error_at(last, [](const HistoryRow& errors) { return errors.t_us; })},
+      {"position_um", error_at(last, [](const HistoryRow& errors) { return errors.position_um; })},
+      {"least_tension_mN_per_m", error_at(slackest(record.rows), of_measure("least_tension_mN_per_m"))},
+      {"greatest_relative_volume_change", error_at(most_changed(record.rows), of_measure("relative_volume_change"))},
+      {"stationary_deformation", record.stationary_error}};
 }
 
 }  // namespace
@@ -76,7 +80,9 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
       {"ended_by", "time, place: what the case asks for; settled: nothing came any more; failure: see status",
        [](const TimeRecord& r) -> Json { return name(r.end); }},
       {"comparison",
-       "how the same run on another mesh ended, which tells the error: converged, or why not; null: there was none",
+       "how the same run with other steps and on another mesh ended, which tells the errors: converged, or why not; "
+       "null: "
+       "there was none",
        [](const TimeRecord& r) -> Json {
          return r.comparison == Status::not_started ? Json() : Json(rheocyte::name(r.comparison));
        }},
@@ -86,16 +92,16 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
       {"greatest_relative_volume_change", "greatest magnitude on the way",
-       [](const TimeRecord& r) -> Json { return greatest_volume_change(r.rows); }},
+       [](const TimeRecord& r) -> Json { return volume_change(most_changed(r.rows)); }},
       {"stationary_deformation",
        "of the same cell, with a mesh chosen for its accuracy; null if there is no such shape, or a contraction",
        [](const TimeRecord& r) -> Json { return r.stationary_deformation; }},
       {"errors",
        "estimated errors of numbers of the way, absolute, each under the name and in the unit of its number: from the "
-       "same "
-       "run on another mesh, that of the stationary deformation from its own meshes; null where there is no such run. "
-       "t_us "
-       "has none: it is the time of the last state",
+       "same run with other steps and on another mesh, that of the stationary deformation from its own meshes; null "
+       "where there is no such run. A run that ends at a time has an error of its place, one that ends at a place of "
+       "its "
+       "time",
        errors_of_way}};
   return fields;
 }
@@ -116,10 +122,19 @@ HistoryRow history_row(const TimePoint& point, const Scales& scales) {
           in_history(point.state, scales)};
 }
 
-std::vector<HistoryRow> history_rows(std::span<const TimePoint> points, const Scales& scales) {
-  std::vector<HistoryRow> rows;
-  for (const TimePoint& point : points) rows.push_back(history_row(point, scales));
-  return rows;
+void add_step(const TimePoint& point, const Scales& scales, TimeRecord& record) {
+  record.rows.push_back(history_row(point, scales));
+  record.way.steps.push_back(point);
+}
+
+void add_frame(const TimeFrame& frame, const Scales& scales, TimeRecord& record) {
+  record.frames.push_back(contour_frame(frame, scales));
+  record.way.outputs.push_back({.time = frame.time, .position = frame.position, .state = frame.state});
+}
+
+void add_errors(const TimeWay& errors, const Scales& scales, TimeRecord& record) {
+  for (const TimePoint& point : errors.steps) record.row_errors.push_back(history_row(point, scales));
+  for (const TimePoint& point : errors.outputs) record.frame_errors.push_back(history_row(point, scales));
 }
 
 ContourFrame contour_frame(const TimeFrame& frame, const Scales& scales) {
@@ -180,15 +195,38 @@ std::string history_csv(const TimeRecord& record) {
   return text + "\n";
 }
 
-std::string outputs_csv(const TimeRecord& record) {
-  const std::vector<std::size_t> known = known_in(record.frames);
+namespace {
+
+/// Time, place and measures.
+template <class Row>
+std::string measures_csv(const std::vector<Row>& rows, const std::vector<std::size_t>& known, int digits) {
   std::string text = "t_us,position_um";
   for (const std::size_t k : known) text += fmt::format(",{}", history_measures[k].name);
-  for (const ContourFrame& frame : record.frames) {
-    text += fmt::format("\n{:.12g},{:.12g}", frame.t_us, frame.position_um);
-    for (const std::size_t k : known) text += fmt::format(",{:.12g}", frame.measures[k]);
+  for (const Row& row : rows) {
+    text += fmt::format("\n{:.{}g},{:.{}g}", row.t_us, digits, row.position_um, digits);
+    for (const std::size_t k : known) text += fmt::format(",{:.{}g}", row.measures[k], digits);
   }
   return text + "\n";
+}
+
+std::string errors_csv(const std::vector<HistoryRow>& errors, const std::vector<std::size_t>& known) {
+  constexpr int digits = 4;
+  return errors.empty() ? "" : measures_csv(errors, known, digits);
+}
+
+}  // namespace
+
+std::string outputs_csv(const TimeRecord& record) {
+  constexpr int digits = 12;
+  return measures_csv(record.frames, known_in(record.frames), digits);
+}
+
+std::string history_errors_csv(const TimeRecord& record) {
+  return errors_csv(record.row_errors, known_in(record.rows));
+}
+
+std::string outputs_errors_csv(const TimeRecord& record) {
+  return errors_csv(record.frame_errors, known_in(record.frames));
 }
 
 std::string contours_csv(const TimeRecord& record) {

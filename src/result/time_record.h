@@ -45,9 +45,10 @@ struct TimeRecord {
   std::vector<HistoryRow> rows;
   std::vector<ContourFrame> frames;
   TimeEnd end = TimeEnd::failure;
-  /// How the run to compare with ended; not_started: there was none.
+  /// How the runs to compare with ended; not_started: there was none.
   Status comparison = Status::not_started;
-  std::vector<HistoryRow> compared_rows;  ///< of that run, if it tells errors
+  TimeWay way;                                       ///< rows and frames as they were computed
+  std::vector<HistoryRow> row_errors, frame_errors;  ///< of these; empty: not known
   /// Of the same cell, at the end of the run; NaN if there is none, or none to compare with.
   double stationary_deformation = no_value;
   double stationary_error = no_value;  ///< of that deformation
@@ -55,7 +56,7 @@ struct TimeRecord {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& r) {
-    return std::tie(r.rows, r.frames);
+    return std::tie(r.rows, r.frames, r.way);
   }
 };
 
@@ -65,9 +66,14 @@ std::vector<std::size_t> known_measures(const std::vector<HistoryRow>&);
 /// The row of the least meridional tension of the surface; there must be a row.
 const HistoryRow& min_tension(const TimeRecord&);
 
+/// Of a point, or of the errors of one.
 HistoryRow history_row(const TimePoint&, const Scales&);
-std::vector<HistoryRow> history_rows(std::span<const TimePoint>, const Scales&);
 ContourFrame contour_frame(const TimeFrame&, const Scales&);
+
+/// These add a step, an output, and the errors of all of them.
+void add_step(const TimePoint&, const Scales&, TimeRecord&);
+void add_frame(const TimeFrame&, const Scales&, TimeRecord&);
+void add_errors(const TimeWay& errors, const Scales&, TimeRecord&);
 
 /// Time, measures of the state, and these columns.
 std::string history_csv(const TimeRecord&);
@@ -75,6 +81,11 @@ std::span<const Field<HistoryRow>> history_fields();
 
 /// The same numbers at the outputs: time, place, measures of the state.
 std::string outputs_csv(const TimeRecord&);
+
+/// Of history.csv and outputs.csv, line by line: the errors of times, places and measures, absolute; empty where they
+/// are not known.
+std::string history_errors_csv(const TimeRecord&);
+std::string outputs_errors_csv(const TimeRecord&);
 
 /// What result.json tells of the way, under "time"; there must be a row.
 std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();

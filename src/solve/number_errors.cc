@@ -15,8 +15,7 @@ struct LastChange {
   double outline;     ///< as in change_of_outline, or a fraction of that of the surface's stretch at single points
   double points = 0;  ///< the greatest relative change of a number at single points
 
-  explicit LastChange(std::span<const StateNumbers> rungs) {
-    const StateNumbers &last = rungs.back(), &before = rungs[rungs.size() - 2];
+  LastChange(const StateNumbers& before, const StateNumbers& last) {
     double stretch = 0;
     for (const StateMeasure& measure : state_measures) {
       const double change = std::abs(measure.value(last) - measure.value(before));
@@ -32,9 +31,9 @@ struct LastChange {
 };
 
 /// The factors are those of random cells of all kinds (docs/verification.md, "The stated error of every number").
-double error_with_others(const StateMeasure& measure, std::span<const double> values, const LastChange& change) {
+double error_with_others(const StateMeasure& measure, double error, double value, const LastChange& change) {
   constexpr double of_pressures = 2, of_points = 3, of_greatest_at_points = 0.5;
-  const double error = error_of_last(values), size = size_of(measure, values.back());
+  const double size = size_of(measure, value);
   if (error == 0) return 0;  // given, or a limit that is not passed
   switch (measure.settles_with) {
     case SettlesWith::itself: return error;
@@ -74,13 +73,30 @@ StateNumbers unknown_numbers() {
 StateNumbers errors_of_last(std::span<const StateNumbers> rungs, double error_of_deformation) {
   StateNumbers errors = unknown_numbers();
   if (rungs.size() < 2) return errors;
-  const LastChange change(rungs);
+  const LastChange change(rungs[rungs.size() - 2], rungs.back());
   for (const StateMeasure& measure : state_measures) {
     std::vector<double> values;
     for (const StateNumbers& rung : rungs) values.push_back(measure.value(rung));
-    measure.of(errors) = error_with_others(measure, values, change);
+    measure.of(errors) = error_with_others(measure, error_of_last(values), values.back(), change);
   }
   errors.shape.deformation = error_of_deformation * std::abs(rungs.back().shape.deformation);
+  return errors;
+}
+
+StateNumbers errors_of_change(const StateNumbers& coarser, const StateNumbers& numbers, double min_outline) {
+  constexpr double of_outline = 1;
+  StateNumbers errors = unknown_numbers();
+  LastChange change(coarser, numbers);
+  change.outline = std::max(change.outline, min_outline);
+  for (const StateMeasure& measure : state_measures) {
+    const double value = measure.value(numbers);
+    measure.of(errors) = error_with_others(measure, std::abs(measure.value(coarser) - value), value, change);
+  }
+  // It is of second order in the outline's modes: relative to itself it changes by twice as much as they do.
+  const double d = numbers.shape.deformation, outline = change_of_outline({}, numbers);
+  errors.shape.deformation = std::abs(coarser.shape.deformation - d);
+  if (outline > 0)
+    errors.shape.deformation = std::max(errors.shape.deformation, of_outline * std::abs(d) * change.outline / outline);
   return errors;
 }
 

@@ -23,6 +23,11 @@ StateNumbers unknown_numbers();
 /// such (docs/theory.md, eq:number-errors). Not a number where there is no number, or no error is known.
 StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation);
 
+/// Errors of the numbers of a state of which another one with greater errors is known, each in its number's unit: the
+/// changes between them, and likewise none below those of the outline, which changes by `min_outline` at least, or of
+/// single points.
+StateNumbers errors_of_change(const StateNumbers& coarser, const StateNumbers&, double min_outline = 0);
+
 /// Magnitudes of the differences, number by number.
 StateNumbers distance(const StateNumbers&, const StateNumbers&);
 

@@ -80,9 +80,11 @@ struct StationaryState : StateNumbers {
   std::vector<DuctView> views;        ///< along the height, and along diagonal (square channel) or width
   double residual = no_value;         ///< of the last Newton iteration, relative to the driving forces
   double estimated_error = no_value;  ///< of the deformation, relative to it or to the floor below which it is
+  double step_error = no_value;       ///< that of the steps in time in it
   double deformation_floor = 0;
   StateNumbers errors = unknown_numbers();  ///< of the numbers, each in its unit; not a number: not known
-  /// In time, how the same run on another mesh ended, which tells the error; not_started: there was none.
+  /// In time, how the same run with other steps or on another mesh ended, which tells the error; not_started: there
+  /// was none.
   Status comparison = Status::not_started;
   SolveStatistics statistics;
   std::vector<BranchStep> branch;

@@ -4,6 +4,7 @@
 
 #include "fem/discretisation.h"
 #include "solve/time_state.h"
+#include "solve/time_way.h"
 
 namespace rheocyte {
 
@@ -17,6 +18,7 @@ struct UnitChange {
 struct TimeStart {
   TimeState state;
   std::optional<UnitChange> units = {};
+  TimeWay before = {};  ///< what was recorded on the way there
 };
 
 /// The shape, the flow and the pressures of the last level at time zero, in new units. For the spaces of tube and duct,

@@ -4,6 +4,7 @@
 
 #include "solve/stationary.h"
 #include "solve/time_start.h"
+#include "solve/time_way.h"
 
 namespace rheocyte {
 
@@ -19,23 +20,20 @@ struct TimeRun {
   double end_position = HUGE_VAL;
   bool outputs_by_place = false;
   double mesh_accuracy = 1e-3;   ///< of the deformation, relative; where the mesh is chosen
-  bool estimates_error = false;  ///< by a second run on a coarser mesh, unless the cell has settled
+  bool estimates_error = false;  ///< by the same run with other steps, and on other meshes (solve/time_errors.h)
   double first_output = 0;       ///< time, or way, of the first output behind the start; 0: output_every
+  double step_factor = 1;        ///< first and longest steps over the usual ones
+  bool ends_when_settled = true;
 };
+
+/// Whether the user has chosen the mesh; then no accuracy is wanted of it.
+inline bool is_mesh_given(const TimeRun& run) { return run.degree > 0 || run.scheme == TimeScheme::partitioned; }
 
 /// How far before its wanted end a run by place may end: in a duct the place is the barycentre's, which is known as
 /// accurately as a step is.
-inline double place_tolerance(const Problem& problem, const TimeRun& run) {
+inline double tolerance_of_place(const Problem& problem, const TimeRun& run) {
   return is_duct(problem.section) ? run.accuracy * problem.radius_ratio : 0;
 }
-
-/// What is recorded of each step; dimensionless.
-struct TimePoint {
-  double time = 0, step = 0;
-  int order = 0, newton_iterations = 0, refused_steps = 0;
-  double position = 0;  ///< of the cell along the channel, from its start
-  StateNumbers state;
-};
 
 /// What is recorded at the outputs; interpolated between steps.
 struct TimeFrame {
@@ -47,8 +45,7 @@ struct TimeFrame {
 struct TimeObserver {
   std::function<void(const TimeFrame&)> frame;                   ///< at 0, output_every, 2 output_every, ..., the end
   std::function<void(const TimePoint&, const TimeState&)> step;  ///< at the start and after each step and its frames
-  /// All steps of the same run on another mesh, from which the errors are, if there is one that tells them.
-  std::function<void(std::span<const TimePoint>)> compared = {};
+  std::function<void(const TimeWay&)> errors = {};               ///< of all steps and outputs, once they are known
 };
 
 /// Follows the cell from the sphere, or from the state of an earlier run on the mesh of that. The result describes the

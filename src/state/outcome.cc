@@ -143,6 +143,7 @@ const char* name(Status status) {
     case Status::singular_matrix: return "singular-matrix";
     case Status::not_finite: return "not-finite";
     case Status::accuracy_not_reached: return "accuracy-not-reached";
+    case Status::error_unknown: return "error-unknown";
     case Status::stopped: return "stopped";
     case Status::no_equilibrium: return "no-equilibrium";
     case Status::covered: return "covered";

@@ -20,6 +20,7 @@ enum class Status {
   singular_matrix,       ///< the factorisation failed
   not_finite,            ///< NaN or infinity in residual or state
   accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the wanted one
+  error_unknown,         ///< the state was found; a signal stopped the computation of its error
   stopped,               ///< by a signal
   no_equilibrium,        ///< the cell drifts on to the wall
   covered,               ///< of a table's branch: it leaves the table's ranges
@@ -27,7 +28,9 @@ enum class Status {
 };
 
 /// Whether there is a state, be it less accurate than wanted.
-inline bool has_state(Status status) { return status == Status::converged || status == Status::accuracy_not_reached; }
+inline bool has_state(Status status) {
+  return status == Status::converged || status == Status::accuracy_not_reached || status == Status::error_unknown;
+}
 
 /// What a state that was found is judged by.
 struct FinalState {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 23> own_files{"result.json",
+constexpr std::array<std::string_view, 25> own_files{"result.json",
                                                      "contour.csv",
                                                      "fields.vtu",
                                                      "case.toml",
@@ -40,6 +40,8 @@ constexpr std::array<std::string_view, 23> own_files{"result.json",
                                                      "time.gif",
                                                      "channel.csv",
                                                      "outputs.csv",
+                                                     "history_errors.csv",
+                                                     "outputs_errors.csv",
                                                      "contours_across.csv",
                                                      "contours_offset.csv",
                                                      "contour_side.csv",

@@ -1,7 +1,6 @@
 // A cell in a channel that is not straight.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 
 #include "cases.h"
@@ -207,22 +206,6 @@ TEST(ChannelEntry, ACellPassesAWallOf45Degrees) {
     ASSERT_EQ(end.outcome.status, Status::converged) << end.outcome.message;
     EXPECT_NEAR(end.shape.deformation / stationary, 1, 1e-3);
   }
-}
-
-TEST(ChannelEntry, ARunToCompareWithThatDoesNotArriveIsTold) {
-  // Stopped as soon as the run itself has arrived: that has converged, its error is not known, and this is said.
-  std::atomic<bool> stop = false;
-  TimeRun run{0.4, 0.4, 1e-4, 3};
-  run.estimates_error = true;
-  const TimeObserver stopper{[&](const TimeFrame& frame) { stop = frame.time > 0; }, {}};
-  const StationaryState state = transient(entering_cell(), run, stopper, nullptr, &stop);
-  EXPECT_EQ(state.outcome.status, Status::converged);
-  EXPECT_EQ(state.comparison, Status::stopped);
-  EXPECT_TRUE(std::isnan(state.estimated_error));
-  EXPECT_NE(state.outcome.message.find("the run to compare with, on a mesh of degree 2, ended at 0 % of the time "
-                                       "(stopped)."),
-            std::string::npos)
-      << state.outcome.message;
 }
 
 TEST(ChannelEntry, AFailedRunKeepsItsLastGoodStateAndItsHistory) {
