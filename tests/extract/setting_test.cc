@@ -47,6 +47,14 @@ TEST(Settings, OfEachCommandHaveNamesOfTheirOwnASentenceAndALabel) {
   }
 }
 
+TEST(Settings, AreNotEmpty) {
+  ExtractOptions options;
+  for (const Json& given :
+       {Json{{"medium", ""}}, Json{{"temperature", " "}}, Json{{"table", ""}}, Json{{"max", {"area_um=90", ""}}}})
+    EXPECT_EQ(refusal([&] { take_settings(settings_of(options), given); }),
+              given.begin().key() + " is empty; give a value, or leave it out.");
+}
+
 TEST(Settings, GoToTheirPlaces) {
   ExtractOptions options;
   take_settings(settings_of(options), {{"section", "tube"},
