@@ -14,6 +14,7 @@
 #include "extract/companion_origin.h"
 #include "extract/population_companion.h"
 #include "extract/population_json.h"
+#include "extract/population_lines.h"
 #include "extract/population_spec.h"
 #include "extract/population_tables.h"
 #include "extract/recording_settings.h"

@@ -1,9 +1,11 @@
 // What no laboratory measures, and what in a recording contradicts itself: mostly units that were mistaken.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "case/channel_flow.h"
 #include "measurement/recording.h"
 
 namespace rheocyte {
@@ -32,5 +34,7 @@ std::vector<std::string> contradictions(const Recording& recording, double rate_
 
 /// The sentence about events whose Reynolds number is too great; `greatest` of them all.
 std::string inertia_text(std::size_t events, double greatest);
+/// The same of events with these viscosities in a flow, whose own does not count; empty if there are none.
+std::string inertia_text(const ChannelFlow& flow, std::span<const double> viscosity_mPas);
 
 }  // namespace rheocyte

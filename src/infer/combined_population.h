@@ -31,14 +31,14 @@ struct CombinedPopulation {
   CombinedLaw law;
   /// Of the parameters, by what all events have in common: table, section, and what these miss.
   Eigen::MatrixXd common_covariance;
-  std::vector<int> features;       ///< that were fitted, of ShapeFeature
-  Eigen::VectorXd residual;        ///< of their means, measured - fitted
-  Eigen::VectorXd bend;            ///< of the law, see CombinedMoments
-  CellCoordinates mean_cell;       ///< of the law, in the table, which may end before
-  std::vector<ShapeVector> drawn;  ///< virtual events of the law, which pass the gates
-  std::vector<bool> counts;        ///< by event: it passes the gates, and is no stranger
-  std::size_t outside = 0;         ///< events that the gates leave out
-  double kept_fraction = 1;        ///< of the cells, by the gates
+  std::vector<int> features;            ///< that were fitted, of ShapeFeature
+  Eigen::VectorXd residual;             ///< of their means, measured - fitted
+  Eigen::VectorXd bend;                 ///< of the law, see CombinedMoments
+  CellCoordinates mean_cell;            ///< of the law, in the table, which may end before
+  std::vector<ShapeVector> drawn;       ///< virtual events of the law, which pass the gates
+  std::vector<bool> counts;             ///< by event: it passes the gates, and is no stranger
+  std::size_t smaller = 0, larger = 0;  ///< events that the gates leave out
+  double kept_fraction = 1;             ///< of the cells, by the gates
 };
 
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table
