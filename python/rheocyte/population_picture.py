@@ -162,12 +162,13 @@ def draw_pairs(axes, story, key):
 
 
 def draw_recording(axes, place, recording, key, colour):
-    """A full dot, an open one where the checks do not hold, an arrow where there is a lower limit alone."""
+    """A full dot, an open one where the checks do not hold, an arrow where there is a limit alone."""
     value, lower, upper = modulus_of(recording, key)
     if not np.isfinite(value):
-        if limit := recording.get("young_modulus_above_kPa"):
-            axes.annotate("", (place, limit * 1.25), (place, limit), arrowprops={"arrowstyle": "->", "color": colour})
-            axes.plot(place, limit, "_", color=colour, markersize=6)
+        for name, end in (("young_modulus_above_kPa", 1.25), ("young_modulus_below_kPa", 0.8)):
+            if limit := recording.get(name):
+                axes.annotate("", (place, limit * end), (place, limit), arrowprops={"arrowstyle": "->", "color": colour})
+                axes.plot(place, limit, "_", color=colour, markersize=6)
         return
     fits = all(check["fits"] for check in recording["checks"])
     axes.plot([place] * 2, [lower, upper], color=colour, linewidth=0.8, zorder=2)

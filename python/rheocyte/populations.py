@@ -18,9 +18,9 @@ class Population:
     recordings      pandas.DataFrame, one row per recording: condition, session, recording, events (that were fitted),
                     young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
                     correlation, kept_fraction (by the gates), fits (whether there are numbers and all checks hold), failure
-    conditions      one row per condition: recordings, events, young_modulus_kPa with lower_kPa and upper_kPa (by the
-                    scatter of the recordings), spreads, radius_um; stiffening with its ends (the exponent of E over the
-                    stress, of recordings at several flow rates)
+    conditions      one row per condition: recordings, events, beyond_the_table (fraction of the events), young_modulus_kPa
+                    with lower_kPa and upper_kPa (by the scatter of the recordings), spreads, radius_um; stiffening with its
+                    ends (the exponent of E over the stress, of recordings at three or more flow rates)
     comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio, lower, upper, p,
                     degrees_of_freedom, sampling_lower, sampling_upper
 
@@ -86,7 +86,7 @@ class Population:
             told = [f"{each['symbol'] + ' ' if several else ''}{_told(*_interval(condition, 'median_' + key), ' ' + each['unit'])}"
                     for key, each in quantities.items() if "median_" + key in condition]
             lines.append(f"{condition['name']}: {', '.join(told) or 'no number'}, recordings: {condition['recordings']}, "
-                         f"events: {condition['events']}")
+                         f"events: {condition['events']}{_beyond_text(condition)}")
         for row in self.comparisons.itertuples():
             of = f"{quantities[row.quantity]['symbol']}, " if several else ""
             if np.isfinite(row.p):
@@ -120,8 +120,9 @@ def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, betwee
 
     Returns a pandas.DataFrame with one row per channel: speed, viscosity, stress at the wall, deformation and mode_3 of the
     median cell, fraction of the cells inside the table, the error of ln E by one image, sessions that are needed (inf: more than
-    100; NaN: the table has no such cells).
-    attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense.
+    100; NaN: the table has no such cells, or they are too stiff to be seen), and the Reynolds number.
+    attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense, and where no channel shows
+    the cells.
     """
     import pandas
 
@@ -166,6 +167,18 @@ def _plan_frame():
     return Plan
 
 
+def _beyond(record):
+    """By the side of the table, the fraction of the events beyond it."""
+    counts = record.get("beyond_the_table") or {}
+    events = record["events"] + sum(counts.values())
+    return {side: count / events for side, count in counts.items() if count}
+
+
+def _beyond_text(condition):
+    shares = [f"{100 * share:.0f} % {side}" for side, share in _beyond(condition).items() if share >= 0.005]
+    return f", and beyond the table {' and '.join(shares)}" if shares else ""
+
+
 def _told(value, lower, upper, unit=""):
     """A number with its interval."""
     return f"{value:.3g}{unit} ({lower:.3g} .. {upper:.3g})" if np.isfinite(value) else "no number"
@@ -202,7 +215,7 @@ def _recording_row(record, several):
 def _condition_row(record, several):
     exponent, least, greatest = _interval(record.get("stiffening") or {}, "exponent_of_modulus_over_stress")
     return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
-            **_moduli(record, several), "radius_um": record.get("median_radius_um", np.nan),
+            "beyond_the_table": sum(_beyond(record).values()), **_moduli(record, several), "radius_um": record.get("median_radius_um", np.nan),
             "ln_radius_spread": record.get("spread_of_ln_radius", np.nan),
             "stiffening": exponent, "stiffening_lower": least, "stiffening_upper": greatest}
 

@@ -11,6 +11,7 @@
 #include "app/recording_batch.h"
 #include "case/user_error.h"
 #include "extract/population_json.h"
+#include "extract/population_lines.h"
 #include "extract/population_spec.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"

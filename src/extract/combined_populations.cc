@@ -175,7 +175,8 @@ void tell_continued(const CombinedPopulation& found, const CellBox& box, Recordi
 }
 
 /// Also of measures that were not fitted.
-std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::vector<MeasuredCell>& cells) {
+std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::vector<MeasuredCell>& cells,
+                                    double pixel_size_um) {
   std::vector<int> checked{int(ShapeFeature::area_um2), int(ShapeFeature::deformation),
                            int(ShapeFeature::moment_ratio)};
   for (int k = min_mode; k <= last_fitted_mode; ++k) checked.push_back(mode_2 + k - min_mode);
@@ -198,8 +199,10 @@ std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::
                        : feature == int(ShapeFeature::deformation)  ? "d"
                        : feature == int(ShapeFeature::moment_ratio) ? "inertia ratio"
                                                                     : fmt::format("c{}", feature - mode_2 + min_mode);
-    checks.push_back(compared_measure(
-        std::move(name), is_fitted ? MeasureRule::fitted_among_others : MeasureRule::not_fitted, measured, predicted));
+    const double convention = mask_convention(name, pixel_size_um, measured.log_area);
+    checks.push_back(compared_measure(std::move(name),
+                                      is_fitted ? MeasureRule::fitted_among_others : MeasureRule::not_fitted, measured,
+                                      predicted, convention));
   }
   return checks;
 }
@@ -257,8 +260,10 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
         "tells how far single events are from the cells of the table.";
     return;
   }
-  r.beside_table = combined.found.outside;
-  combined.strangers = cells.size() - r.beside_table - fit.events;
+  for (const auto& [side, events] :
+       {std::pair(TableSide::smaller, combined.found.smaller), std::pair(TableSide::larger, combined.found.larger)})
+    r.beyond.add(side, events);
+  combined.strangers = cells.size() - r.beyond.all() - fit.events;
   r.fitted_events = fit.events;
   if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
   r.failure = why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow).length);
@@ -270,7 +275,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
     r.failure = "the events do not tell the parameters of the population apart; more events help.";
     return;
   }
-  r.checks = checks_of(combined.found, cells);
+  r.checks = checks_of(combined.found, cells, events.pixel_size_um);
 }
 
 }  // namespace rheocyte

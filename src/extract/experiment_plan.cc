@@ -7,6 +7,7 @@
 
 #include "case/user_error.h"
 #include "extract/modulus_tables.h"
+#include "extract/plausibility.h"
 #include "infer/solid_maps.h"
 #include "numeric/no_value.h"
 #include "population/virtual_event.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::array usual_speeds_m_s{0.04, 0.1, 0.2, 0.4};
 constexpr int drawn_cells = 2000, most_told_sessions = 10;
 constexpr double least_deformation = 0.01, greatest_deformation = 0.03, enough_inside = 0.95;
+/// Of ln E by one image: the asymmetry is as great as its noise.
+constexpr double error_of_noise = 1;
 
 Buffer buffer_of(const std::string& name) {
   const auto medium = medium_of_name(name);
@@ -103,21 +106,29 @@ PlannedChannel planned_channel(const PlanOptions& options, const ModulusTables& 
   channel.speed_m_s = rate_ul_s / (width_um * width_um) * 1e3;
   channel.wall_stress_Pa = wall_shear_stress_Pa(channel.flow);
   PlannedCells(options, tables, channel).tell();
+  channel.reynolds_number = reynolds_number(buffer_density_kg_per_m3, channel.flow);
   channel.is_recommended = channel.deformation >= least_deformation && channel.deformation <= greatest_deformation &&
-                           channel.inside >= enough_inside;
-  if (std::isfinite(channel.error_by_asymmetry))
+                           channel.inside >= enough_inside && channel.reynolds_number <= max_reynolds_number;
+  if (channel.shows_the_cells())
     channel.sessions = sessions_for(experiment_of(options, channel), std::log1p(options.difference), options.power);
   return channel;
+}
+
+/// By how many factors d, the fraction of the cells outside and the inertia are beyond what is recommended.
+double distance_from_recommended(const PlannedChannel& c) {
+  const auto beyond = [](double value, double limit) { return std::max(std::log(value / limit), 0.0); };
+  return beyond(c.deformation, greatest_deformation) + beyond(least_deformation, c.deformation) +
+         beyond(1 - c.inside, 1 - enough_inside) + beyond(c.reynolds_number, max_reynolds_number);
 }
 
 std::optional<std::size_t> best_of(const std::vector<PlannedChannel>& channels) {
   std::optional<std::size_t> best;
   const auto is_better = [](const PlannedChannel& a, const PlannedChannel& b) {
-    if (a.is_recommended != b.is_recommended) return a.is_recommended;
-    return a.error_by_asymmetry < b.error_by_asymmetry;
+    if (a.is_recommended && b.is_recommended) return a.error_by_asymmetry < b.error_by_asymmetry;
+    return distance_from_recommended(a) < distance_from_recommended(b);
   };
   for (std::size_t k = 0; k < channels.size(); ++k) {
-    if (!std::isfinite(channels[k].error_by_asymmetry)) continue;
+    if (!channels[k].shows_the_cells()) continue;
     if (!best || is_better(channels[k], channels[*best])) best = k;
   }
   return best;
@@ -138,6 +149,59 @@ std::string limit_text(const Experiment& e) {
       100 * between / all, 100 * spread / all, 100 * image / all, greatest);
 }
 
+/// The channels whose inertia the tables do not have.
+void tell_inertia(ExperimentPlan& plan) {
+  std::size_t channels = 0;
+  double greatest = 0;
+  for (const PlannedChannel& c : plan.channels)
+    if (c.reynolds_number > max_reynolds_number) ++channels, greatest = std::max(greatest, c.reynolds_number);
+  if (channels > 0)
+    plan.lines.push_back(
+        fmt::format("{} of these channels have Reynolds numbers above {:g}, up to {:.2g}, and are not recommended: the "
+                    "tables hold no inertia of the liquid.",
+                    channels, max_reynolds_number, greatest));
+}
+
+/// What is not as it should be, and what helps; empty of a recommended one.
+std::string remedy_text(const PlannedChannel& c) {
+  if (c.deformation < least_deformation)
+    return "; a narrower channel, more flow or a thicker medium would deform the cells more";
+  if (c.deformation > greatest_deformation || c.inside < enough_inside)
+    return "; a wider channel, less flow or a thinner medium would bring more of the cells into the table";
+  return {};
+}
+
+std::string percent_text(double fraction) {
+  const double percent = 100 * fraction;
+  return std::abs(percent) < 100 ? fmt::format("{:.3g} %", percent) : fmt::format("{:.0f} %", percent);
+}
+
+/// Differences of several hundred per cent are mostly meant as per cent.
+std::string difference_text(double difference) {
+  constexpr double large = 2;
+  if (difference < large) return percent_text(difference);
+  return fmt::format("{} (an E that is {:.3g} times as great; --difference {:g} is {:g} %)", percent_text(difference),
+                     1 + difference, difference / 100, difference);
+}
+
+[[noreturn]] void refuse_all(const PlanOptions& options, const std::vector<PlannedChannel>& channels) {
+  const PlannedChannel* stiff = nullptr;  // the channel that shows most of cells that are in the table
+  for (const PlannedChannel& c : channels)
+    if (std::isfinite(c.error_by_asymmetry) && (!stiff || c.error_by_asymmetry < stiff->error_by_asymmetry)) stiff = &c;
+  if (!stiff)
+    throw UserError(
+        fmt::format("rheocyte: no channel of these has cells of {:g} um and {:g} kPa within the tables; cells go from "
+                    "a third to nine tenths of the channel's width. Give other --width-um, --rate-ul-s or --medium.",
+                    options.radius_um, options.young_modulus_kPa));
+  throw UserError(fmt::format(
+      "rheocyte: cells of {:g} um and {:g} kPa are too stiff to be seen in these channels: their asymmetry is at most "
+      "{:.2g} of its noise in one image ({:g} um, {}, {:.3g} ul/s, {:.3g} Pa at the wall). Give a narrower --width-um, "
+      "a "
+      "greater --rate-ul-s or a thicker --medium: {:.2g} times the stress at the wall does.",
+      options.radius_um, options.young_modulus_kPa, error_of_noise / stiff->error_by_asymmetry, stiff->flow.width_um,
+      stiff->medium, stiff->flow.rate_ul_s, stiff->wall_stress_Pa, stiff->error_by_asymmetry / error_of_noise));
+}
+
 void tell_best(const PlanOptions& options, ExperimentPlan& plan) {
   const PlannedChannel& channel = plan.channels[*plan.best];
   const Experiment experiment = experiment_of(options, channel);
@@ -146,20 +210,21 @@ void tell_best(const PlanOptions& options, ExperimentPlan& plan) {
     plan.power.push_back(power_of(experiment, sessions, difference));
   plan.lines.push_back(
       fmt::format("{}: {:g} um, {}, {:.3g} ul/s: d {:.3f}, c3 {:.3f}, one image tells E to {:.0f} %, {:.0f} % of the "
-                  "cells inside the table.",
+                  "cells inside the table{}.",
                   channel.is_recommended ? "recommended"
                                          : "best of these, but d should be 0.01 to 0.03 and 95 % of the cells inside",
                   channel.flow.width_um, channel.medium, channel.flow.rate_ul_s, channel.deformation, channel.mode_3,
-                  100 * channel.error_by_asymmetry, 100 * channel.inside));
+                  100 * channel.error_by_asymmetry, 100 * channel.inside, remedy_text(channel)));
   const std::string sessions =
       channel.sessions > 0 ? fmt::format("{} sessions", channel.sessions) : "more than 100 sessions";
   plan.lines.push_back(
-      fmt::format("a difference of {:.3g} % is found with a probability of {:.0f} % by {} of {:g} cells for each "
+      fmt::format("a difference of {} is found with a probability of {:.0f} % by {} of {:g} cells for each "
                   "condition (paired t test); by "
                   "3 sessions with {:.0f} %, by 5 with {:.0f} %, by 8 with {:.0f} %.",
-                  100 * options.difference, 100 * options.power, sessions, options.cells, 100 * plan.power[1],
-                  100 * plan.power[3], 100 * plan.power[6]));
+                  difference_text(options.difference), 100 * options.power, sessions, options.cells,
+                  100 * plan.power[1], 100 * plan.power[3], 100 * plan.power[6]));
   plan.lines.push_back(limit_text(experiment));
+  tell_inertia(plan);
 }
 
 void check_number(const char* option, double value, double least, double greatest) {
@@ -186,6 +251,8 @@ void check_options(const PlanOptions& o) {
   for (const double rate : o.rates_ul_s) check_number("--rate-ul-s", rate, 1e-9, 1000);
 }
 
+bool PlannedChannel::shows_the_cells() const { return error_by_asymmetry < error_of_noise; }
+
 ExperimentPlan plan_experiment(const PlanOptions& options) {
   check_options(options);
   const ModulusTables tables({}, Section::square);
@@ -198,22 +265,17 @@ ExperimentPlan plan_experiment(const PlanOptions& options) {
       for (const double rate : rates_of(options, width))
         plan.channels.push_back(planned_channel(options, tables, medium, width, rate));
   plan.best = best_of(plan.channels);
-  if (!plan.best)
-    throw UserError(
-        fmt::format("rheocyte: no channel of these has cells of {:g} um and {:g} kPa within the tables; cells go from "
-                    "a third to nine "
-                    "tenths of the channel's width. Give other --width-um, --rate-ul-s or --medium.",
-                    options.radius_um, options.young_modulus_kPa));
+  if (!plan.best) refuse_all(options, plan.channels);
   tell_best(options, plan);
   return plan;
 }
 
 namespace {
 
-/// inf: more than are looked at; nan: of cells outside the table.
+/// inf: more than are looked at; nan: of cells outside the table, or too stiff to be seen.
 std::string sessions_text(const PlannedChannel& channel) {
   if (channel.sessions > 0) return std::to_string(channel.sessions);
-  return std::isfinite(channel.error_by_asymmetry) ? "inf" : "nan";
+  return channel.shows_the_cells() ? "inf" : "nan";
 }
 
 }  // namespace
@@ -221,13 +283,15 @@ std::string sessions_text(const PlannedChannel& channel) {
 std::string plan_table(const ExperimentPlan& plan) {
   std::string text(mark_of_plan);
   text +=
-      "speed_m_per_s\tviscosity_mPas\twall_stress_Pa\tdeformation\tmode_3\tinside\terror_by_asymmetry\t"
+      "speed_m_per_s\tviscosity_mPas\twall_stress_Pa\treynolds_number\tdeformation\tmode_3\tinside\terror_by_"
+      "asymmetry\t"
       "error_by_deformation\trecommended\tsessions\n";
   for (const PlannedChannel& c : plan.channels)
-    text += fmt::format("{:g}\t{}\t{:.4g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{}\t{}\n",
-                        c.flow.width_um, c.medium, c.flow.rate_ul_s, c.speed_m_s, c.flow.viscosity_mPas,
-                        c.wall_stress_Pa, c.deformation, c.mode_3, c.inside, c.error_by_asymmetry,
-                        c.error_by_deformation, c.is_recommended ? "yes" : "no", sessions_text(c));
+    text += fmt::format(
+        "{:g}\t{}\t{:.4g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{:.3g}\t{}\t{}\n",
+        c.flow.width_um, c.medium, c.flow.rate_ul_s, c.speed_m_s, c.flow.viscosity_mPas, c.wall_stress_Pa,
+        c.reynolds_number, c.deformation, c.mode_3, c.inside, c.error_by_asymmetry, c.error_by_deformation,
+        c.is_recommended ? "yes" : "no", sessions_text(c));
   return text;
 }
 

@@ -31,22 +31,26 @@ struct PlannedChannel {
   std::string medium;
   ChannelFlow flow;
   double speed_m_s = 0, wall_stress_Pa = 0;  ///< mean speed; shear stress at the wall without a cell
+  double reynolds_number = 0;                ///< of which the tables hold nothing
   double deformation = 0, mode_3 = 0;        ///< of the median cell; NaN where the table does not have it
   double inside = 0;                         ///< fraction of the cells that the table has
   double error_by_asymmetry = 0, error_by_deformation = 0;  ///< of ln E by one image
-  bool is_recommended = false;                              ///< d of 0.01 to 0.03, 95 % of the cells inside
-  int sessions = 0;                                         ///< for the wanted power, 0 if a hundred do not do
+  bool is_recommended = false;  ///< d of 0.01 to 0.03, 95 % of the cells inside, hardly any inertia
+  int sessions = 0;             ///< for the wanted power, 0 if a hundred do not do
+  /// Whether the table has the median cell and its asymmetry is above the noise of one image.
+  bool shows_the_cells() const;
 };
 
 struct ExperimentPlan {
   std::vector<PlannedChannel> channels;
-  std::optional<std::size_t> best;  ///< least error by the asymmetry among the recommended ones, else among all
+  /// Least error by the asymmetry among the recommended ones, else the one that is nearest to these.
+  std::optional<std::size_t> best;
   /// With the best one: power of 2 .. 10 sessions.
   std::vector<double> power;
   std::vector<std::string> lines;  ///< what follows, in sentences
 };
 
-/// UserError if the tables are missing or no channel has the cells.
+/// UserError if the tables are missing or no channel shows the cells.
 ExperimentPlan plan_experiment(const PlanOptions& options);
 
 /// A line for each channel, with a line of names.

@@ -1,6 +1,7 @@
 // Whether a measure of the events is that of a fitted population (docs/theory-populations.md, sec. "Checks").
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "extract/shape_verdict.h"
@@ -20,7 +21,9 @@ struct MeasureCheck {
   std::string name;
   bool is_fitted = false;
   std::size_t events = 0;
-  double distance = 0;  ///< of Kolmogorov and Smirnov: the greatest difference of the distributions
+  /// Of Kolmogorov and Smirnov: the greatest difference of the distributions, which the convention of the masks may
+  /// move.
+  double distance = 0;
   Median measured;
   Median predicted;
   double spread = 0;                                            ///< robust standard deviation of the measured ones
@@ -43,8 +46,13 @@ enum class MeasureRule {
 struct CheckedValues {
   std::vector<double> values, log_area;
 };
+/// `convention`: by how much all measured values may be off together, because of which pixels the masks contain.
 MeasureCheck compared_measure(std::string name, MeasureRule rule, const CheckedValues& measured,
-                              const CheckedValues& predicted);
+                              const CheckedValues& predicted, double convention = 0);
+
+/// By how much a measure of a mask ("d", "c4" to "c7") depends on which pixels of the edge masks contain
+/// (docs/theory-populations.md, eq:mask-convention), for cells of these areas; 0 of all other measures.
+double mask_convention(std::string_view measure, double pixel_size_um, const std::vector<double>& log_area);
 
 /// In words; what holds if all measures fit.
 std::string check_text(const std::vector<MeasureCheck>& checks);

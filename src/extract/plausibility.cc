@@ -119,4 +119,18 @@ std::string inertia_text(std::size_t events, double greatest) {
       events, max_reynolds_number, greatest, 100 * modulus_per_reynolds);
 }
 
+std::string inertia_text(const ChannelFlow& flow, std::span<const double> viscosity_mPas) {
+  ChannelFlow of_event = flow;
+  std::size_t events = 0;
+  double greatest = 0;
+  for (const double viscosity : viscosity_mPas) {
+    of_event.viscosity_mPas = viscosity;
+    const double reynolds = reynolds_number(buffer_density_kg_per_m3, of_event);
+    if (!(reynolds > max_reynolds_number)) continue;
+    ++events;
+    greatest = std::max(greatest, reynolds);
+  }
+  return events == 0 ? std::string() : inertia_text(events, greatest);
+}
+
 }  // namespace rheocyte

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case/channel_flow.h"
 #include "measurement/recording.h"
 #include "shape/outline_shape.h"
 
@@ -51,5 +52,7 @@ std::string cut_text(std::size_t events);
 
 /// The sentence about events whose Reynolds number is too great; `greatest` of them all.
 std::string inertia_text(std::size_t events, double greatest);
+/// The same of events with these viscosities in a flow, whose own does not count; empty if there are none.
+std::string inertia_text(const ChannelFlow& flow, std::span<const double> viscosity_mPas);
 
 }  // namespace rheocyte

@@ -144,15 +144,21 @@ std::vector<MeasureCheck> check_population(const PopulationEvents& events, const
   }
   std::vector<MeasureCheck> checks;
   if (predicted[0].empty()) return checks;
-  const int last = events.has_outlines ? checked_mode_5 : checked_inertia;
+  const int last = events.has_outlines         ? checked_mode_5
+                   : events.has_inertia_ratios ? checked_inertia
+                                               : checked_deformation;
   for (int m = 0; m <= last; ++m) {
     const int fitted_measure = maps.by() == StiffnessMeasure::asymmetry ? checked_mode_3 : checked_deformation;
     const MeasureRule rule = m == checked_area || m == fitted_measure     ? MeasureRule::fitted
                              : m == checked_mode_4 || m == checked_mode_5 ? MeasureRule::of_all_real_cells
                                                                           : MeasureRule::not_fitted;
+    const double convention =
+        rule == MeasureRule::fitted
+            ? 0
+            : mask_convention(checked_names[std::size_t(m)], events.pixel_size_um, measured[checked_area]);
     checks.push_back(compared_measure(checked_names[std::size_t(m)], rule,
                                       {measured[std::size_t(m)], measured[checked_area]},
-                                      {predicted[std::size_t(m)], predicted[checked_area]}));
+                                      {predicted[std::size_t(m)], predicted[checked_area]}, convention));
   }
   return checks;
 }

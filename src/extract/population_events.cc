@@ -36,6 +36,8 @@ void describe(const ExtractSettings& settings, const Gates& gates, StiffnessMeas
   all.flow = settings.conditions.flow;
   all.pixel_size_um = settings.pixel_size_um;
   all.settings = settings.lines();
+  all.medium = settings.medium_text();
+  if (settings.buffer) all.temperature_C = settings.temperature_C;
   all.warnings.insert(all.warnings.end(), settings.warnings.begin(), settings.warnings.end());
   all.gates = gates.description();
   all.gates_beside_the_model = by == StiffnessMeasure::asymmetry ? gates.description_without({"area_um"})
@@ -102,6 +104,12 @@ class StoredReader {
         gates_(options.gates) {
     gates_.check(features_);
     describe(settings_, gates_, by, all);
+    all.has_inertia_ratios = recording.has_scalar(std::string(stored_inertia_ratio));
+    if (!all.has_inertia_ratios)
+      all.warnings.emplace_back(
+          "there are neither outlines nor inertia ratios (inert_ratio_cvx): E is that of cells which nothing but the "
+          "flow "
+          "elongates, and whether these are such cells is unknown.");
   }
 
   void take(std::size_t first, std::size_t count) {
@@ -110,7 +118,7 @@ class StoredReader {
     outside_ += settings_.viscosities(recording_, first, viscosity);
     gates_.apply(features_, first, inside);
     shapes_.read(first, area, deformation);
-    recording_.read_scalar(std::string(stored_inertia_ratio), first, ratio);
+    if (all_.has_inertia_ratios) recording_.read_scalar(std::string(stored_inertia_ratio), first, ratio);
     for (std::size_t i = 0; i < count; ++i) {
       if (!inside[i]) {
         ++all_.gated;
@@ -175,12 +183,14 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
     refuse_path(
         file,
         "has neither contours nor masks, from which the asymmetry of the outlines follows; populations of solids "
-        "are fitted without them with --by odd-deformation, if there are inertia ratios (inert_ratio_cvx).");
-  if (!recording.has_scalar(std::string(stored_inertia_ratio)))
+        "are fitted without them with --by odd-deformation, if there are inertia ratios (inert_ratio_cvx), else with "
+        "--by "
+        "deformation, if nothing but the flow elongates the cells.");
+  if (by == StiffnessMeasure::odd_deformation && !recording.has_scalar(std::string(stored_inertia_ratio)))
     refuse_path(
         file,
         "has neither contours nor masks nor inertia ratios (inert_ratio_cvx), so nobody knows how elongated its "
-        "cells are; E of a population cannot be found from it.");
+        "cells are; --by deformation fits a population of cells that nothing but the flow elongates.");
   return events_by<StoredReader>(recording, options, by, report_progress);
 }
 

@@ -33,7 +33,7 @@ inline constexpr int seen_measures = int(SeenMeasure::viscosity_mPas) + 1;
 struct PopulationEvents {
   ChannelFlow flow;  ///< its viscosity does not count
   double pixel_size_um = 0;
-  bool has_outlines = false;
+  bool has_outlines = false, has_inertia_ratios = true;
   int direction = 0;         ///< in which the cells move (direction_of_cells.h)
   std::size_t recorded = 0;  ///< events of the recording, also those that are left out
   std::size_t gated = 0, without_numbers = 0;
@@ -41,9 +41,11 @@ struct PopulationEvents {
   double least_area_um2 = 0, greatest_area_um2 = 0, least_deformation = 0, greatest_deformation = 0;
   std::string gates, gates_beside_the_model;
   std::vector<double> number;                                ///< of each event in the recording, from 1 on
-  std::array<std::vector<double>, seen_measures> seen = {};  ///< without outlines the modes are empty
+  std::array<std::vector<double>, seen_measures> seen = {};  ///< 0: those that the recording does not have
   std::vector<std::string> settings, warnings;
-  std::string made_of;  ///< of virtual cells (made_of_key)
+  std::string made_of;              ///< of virtual cells (made_of_key)
+  std::string medium;               ///< empty if the viscosity was given
+  double temperature_C = no_value;  ///< of all events, or their median; NaN if the viscosity was given
 
   std::size_t events() const { return number.size(); }
   /// Of at least one event; what is not measured is 0.
@@ -53,15 +55,16 @@ struct PopulationEvents {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.flow, s.pixel_size_um, s.has_outlines, s.direction, s.recorded, s.gated, s.without_numbers,
-                    s.least_area_um2, s.greatest_area_um2, s.least_deformation, s.greatest_deformation, s.gates,
-                    s.gates_beside_the_model, s.number, s.seen[0], s.seen[1], s.seen[2], s.seen[3], s.seen[4],
-                    s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.settings, s.warnings, s.made_of);
+    return std::tie(s.flow, s.pixel_size_um, s.has_outlines, s.has_inertia_ratios, s.direction, s.recorded, s.gated,
+                    s.without_numbers, s.least_area_um2, s.greatest_area_um2, s.least_deformation,
+                    s.greatest_deformation, s.gates, s.gates_beside_the_model, s.number, s.seen[0], s.seen[1],
+                    s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.settings,
+                    s.warnings, s.made_of, s.medium, s.temperature_C);
   }
 };
 
-/// Of those events inside the gates of which everything is a number. UserError for what is wrong with the recording;
-/// for the asymmetry it must have contours or masks, else these or inertia ratios.
+/// Of those events inside the gates of which everything is a number. UserError for what is wrong with the recording:
+/// the asymmetry needs contours or masks, the odd part of the deformation these or inertia ratios.
 PopulationEvents read_population_events(const std::filesystem::path& recording, const MeasuringOptions& options,
                                         StiffnessMeasure by, const TellProgress& report_progress);
 

@@ -157,6 +157,13 @@ ordered_json combined_json(const RecordingReport& r) {
   return json;
 }
 
+/// By the side on which they lie.
+ordered_json beyond_json(const EventsBeyond& beyond) {
+  ordered_json sides;
+  for (int k = 0; k < int(TableSide::count); ++k) sides[std::string(name_of(TableSide(k)))] = beyond.on(TableSide(k));
+  return sides;
+}
+
 ordered_json recording_json(const RecordingReport& r, const PopulationReport& report) {
   ordered_json checks = ordered_json::array();
   for (const auto& check : r.checks) checks.push_back(check_json(check));
@@ -168,6 +175,8 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
                     {"flow_rate_ul_per_s", r.flow.rate_ul_s},
                     {"flow_exponent", r.flow.exponent},
                     {"median_viscosity_mPas", r.median_viscosity_mPas},
+                    {"medium", r.medium},
+                    {"temperature_C", json_number(r.temperature_C)},
                     {"wall_stress_Pa", r.wall_stress_Pa()},
                     {"pixel_size_um", r.pixel_size_um},
                     {"direction", r.direction},
@@ -176,11 +185,13 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
                      {{"recorded", r.recorded},
                       {"gated", r.gated},
                       {"without_numbers", r.without_numbers},
-                      {"beside_the_table", r.beside_table},
+                      {"beside_the_table", r.beyond.all()},
+                      {"beyond_the_table", beyond_json(r.beyond)},
                       {"fitted", r.fitted_events},
                       {"binned", r.is_binned}}},
                     {"median_elongation", json_number(r.median_elongation)}};
   if (r.failure.empty()) json["population"] = r.combined ? combined_json(r) : solid_json(r);
+  if (r.greatest_log_modulus) json["young_modulus_below_kPa"] = std::exp(*r.greatest_log_modulus);
   if (r.fitted.least_log_modulus) json["young_modulus_above_kPa"] = std::exp(*r.fitted.least_log_modulus);
   json["failure"] = r.failure.empty() ? ordered_json(nullptr) : ordered_json(r.failure);
   json["checks"] = std::move(checks);
@@ -191,14 +202,22 @@ ordered_json recording_json(const RecordingReport& r, const PopulationReport& re
 
 ordered_json stiffening_json(const Stiffening& s, double wall_stress_Pa) {
   return {{"exponent_of_modulus_over_stress", interval_json(s.exponent, s.lower, s.upper)},
-          {"exponent_by_sampling_alone", interval_json(s.exponent, s.sampling_lower, s.sampling_upper)},
           {"degrees_of_freedom", json_number(s.freedom)},
           {"wall_stress_of_the_condition_Pa", wall_stress_Pa}};
 }
 
+const char* interval_by(bool recordings) { return recordings ? "scatter of the recordings" : "sampling of the events"; }
+
 /// The first quantity has its scatter and spread beside it.
 ordered_json condition_json(const ConditionReport& c) {
-  ordered_json json{{"name", c.name}, {"recordings", c.recordings}, {"events", c.events}};
+  ordered_json left_out = ordered_json::array();
+  for (const auto& recording : c.left_out) left_out.push_back(recording.string());
+  ordered_json json{{"name", c.name},
+                    {"recordings", c.recordings},
+                    {"events", c.events},
+                    {"beyond_the_table", beyond_json(c.beyond)},
+                    {"left_out", std::move(left_out)}};
+  if (!c.without_numbers_by.empty()) json["without_numbers_by"] = c.without_numbers_by.string();
   if (!c.has_numbers()) return json;
   for (const ConditionQuantity& told : c.quantities) {
     const auto& e = told.log_mean;
@@ -209,7 +228,7 @@ ordered_json condition_json(const ConditionReport& c) {
       json["mean_" + key] = std::exp(e.value + told.spread * told.spread / 2);
   }
   const ConditionQuantity& first = c.quantities.front();
-  json["interval_by"] = first.is_by_recordings ? "scatter of the recordings" : "sampling of the events";
+  json["interval_by"] = interval_by(first.is_by_recordings);
   json["spread_of_ln_modulus"] = first.spread;
   json["median_radius_um"] = std::exp(c.log_radius);
   json["spread_of_ln_radius"] = c.radius_spread;
@@ -229,6 +248,7 @@ ordered_json comparison_json(const ConditionComparison& c, const PopulationRepor
                     {"test", c.is_paired ? "paired t" : "Welch's t"},
                     {"ratio", ratio(d.lower, d.value, d.upper)},
                     {"p", json_number(d.p)},
+                    {"interval_by", interval_by(std::isfinite(d.lower) && !d.is_by_sampling)},
                     {"degrees_of_freedom", json_number(d.freedom)},
                     {"ln_ratio", d.value},
                     {"ln_ratio_standard_error", json_number(d.standard_error)},
@@ -238,77 +258,6 @@ ordered_json comparison_json(const ConditionComparison& c, const PopulationRepor
     json["p_with_known_scatter"] = json_number(d.known_p);
   }
   return json;
-}
-
-std::string median_text(const ConditionQuantity& told) {
-  const auto [key, symbol, unit] = words_of(told.quantity);
-  const IntervalEstimate& e = told.log_mean;
-  return fmt::format("{} {:.3g} {} ({:.3g} .. {:.3g})", symbol, std::exp(e.value), unit, std::exp(e.lower),
-                     std::exp(e.upper));
-}
-
-std::string condition_line(const ConditionReport& c, StiffnessMeasure by) {
-  if (!c.has_numbers()) return fmt::format("{}: no number, because a recording has none.", c.name);
-  std::string medians;
-  for (const ConditionQuantity& told : c.quantities) medians += (medians.empty() ? "" : ", ") + median_text(told);
-  const ConditionQuantity& first = c.quantities.front();
-  return fmt::format(
-      "{}: median {} {}; spread of {} {:.0f} %; r0 {:.2f} um, spread {:.1f} %; {} {:.3f}; recordings: {}, events: {}",
-      c.name, medians, first.is_by_recordings ? "by its recordings" : "by sampling alone",
-      words_of(first.quantity).symbol, 100 * first.spread, std::exp(c.log_radius), 100 * c.radius_spread,
-      by == StiffnessMeasure::asymmetry ? "c2" : "elongation", c.elongation, c.recordings, c.events);
-}
-
-std::string stiffening_line(const ConditionReport& c) {
-  const auto& [quantity, mean, is_by_recordings, spread, between, stiffening] = c.quantities.front();
-  const Stiffening& s = *stiffening;
-  const auto symbol = words_of(quantity).symbol;
-  const std::string told = fmt::format("{}: {} grows as the power {:.2f} of the stress, ", c.name, symbol, s.exponent);
-  if (!s.has_scatter())
-    return told + fmt::format("{:.2f} .. {:.2f} by sampling alone; three recordings tell how they scatter",
-                              s.sampling_lower, s.sampling_upper);
-  return told + fmt::format("{:.2f} .. {:.2f} by its recordings; its {} is that at {:.3g} Pa at the wall", s.lower,
-                            s.upper, symbol, c.wall_stress_Pa);
-}
-
-std::string comparison_line(const ConditionComparison& c, const PopulationReport& report) {
-  const ConditionDifference& d = c.difference;
-  const bool is_one_of_several = report.model != "solid";
-  std::string line = fmt::format(
-      "{} / {}: {}ratio {:.3f}", report.conditions[c.treated].name, report.conditions[c.control].name,
-      is_one_of_several ? fmt::format("{}, ", words_of(c.quantity).symbol) : std::string(), std::exp(d.value));
-  if (std::isfinite(d.p))
-    line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g} by {} with {:.3g} degrees of freedom", std::exp(d.lower),
-                        std::exp(d.upper), d.p, c.is_paired ? "the paired t test" : "Welch's test", d.freedom);
-  else
-    line += fmt::format(
-        " ({:.3f} .. {:.3f} by sampling alone); no p, because a single recording does not tell how recordings scatter",
-        std::exp(d.sampling_lower), std::exp(d.sampling_upper));
-  if (report.between_recordings)
-    line += fmt::format("; with a scatter of {:.3g} between recordings ({:.3f} .. {:.3f}), p = {:.2g}",
-                        *report.between_recordings, std::exp(d.known_lower), std::exp(d.known_upper), d.known_p);
-  return line;
-}
-
-std::string checks_line(const PopulationReport& report) {
-  std::size_t checked = 0, misfits = 0;
-  const RecordingReport* first = nullptr;
-  for (const auto& r : report.recordings) {
-    if (!r.failure.empty()) continue;
-    ++checked;
-    const bool fits = std::ranges::all_of(r.checks, &MeasureCheck::fits);
-    misfits += fits ? 0 : 1;
-    if (!fits && !first) first = &r;
-  }
-  if (checked == 0) return {};
-  if (!first)
-    return fmt::format("checks: {} of {} recordings fit in all measures, also in those not fitted", checked, checked);
-  const bool is_no_solid = report.model == "solid" && std::ranges::any_of(first->checks, [](const MeasureCheck& check) {
-                             return !check.fits && (check.name == "c4" || check.name == "c5");
-                           });
-  return fmt::format("checks: {} of {} recordings do not fit; {}: {}{}", misfits, checked,
-                     first->recording.filename().string(), check_text(first->checks),
-                     is_no_solid ? ". Cells with a cortex have other c4 and c5 than solids: --model cortex" : "");
 }
 
 }  // namespace
@@ -340,19 +289,6 @@ std::string population_json(const PopulationReport& report) {
                              {"recordings", recordings},
                              {"warnings", report.warnings}};
   return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
-std::vector<std::string> population_lines(const PopulationReport& report) {
-  std::vector<std::string> lines;
-  for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
-  for (const auto& c : report.conditions)
-    if (c.has_numbers() && c.quantities.front().stiffening) lines.push_back(stiffening_line(c));
-  for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
-  if (const auto checks = checks_line(report); !checks.empty()) {
-    lines.push_back(checks);
-    lines.push_back("systematic errors, which do not enter ratios: " + report.systematic_errors);
-  }
-  return lines;
 }
 
 }  // namespace rheocyte

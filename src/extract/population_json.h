@@ -1,8 +1,7 @@
-// The record and the lines of `rheocyte population`.
+// The record of `rheocyte population`.
 #pragma once
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "extract/population_recordings.h"
 
@@ -12,8 +11,5 @@ inline constexpr std::string_view mark_of_population_json = "{\n  \"made_by\": \
 
 /// All settings, parameters with their covariances, intervals, comparisons and checks.
 std::string population_json(const PopulationReport& report);
-
-/// For the terminal: one line per condition and comparison, the checks, the systematic errors.
-std::vector<std::string> population_lines(const PopulationReport& report);
 
 }  // namespace rheocyte

@@ -12,8 +12,10 @@
 #include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "extract/condition_reports.h"
 #include "extract/plausibility.h"
 #include "extract/shared_spreads.h"
+#include "extract/unlike_recordings.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -89,131 +91,6 @@ void check_pairs(const std::vector<PopulationCondition>& conditions) {
           conditions.front().name, conditions.front().recordings.size(), condition.name, condition.recordings.size()));
 }
 
-std::vector<std::string> differences_within(const std::vector<RecordingReport>& recordings,
-                                            const std::vector<PopulationCondition>& conditions) {
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < conditions.size(); ++c) {
-    std::set<std::array<double, 4>> kinds;
-    for (const auto& r : recordings)
-      // An exponent to as many digits as the temperatures of recordings of one medium leave.
-      if (r.condition == c)
-        kinds.insert({r.flow.width_um, r.flow.rate_ul_s, std::round(100 * r.flow.exponent), r.pixel_size_um});
-    if (kinds.size() > 1)
-      warnings.push_back(fmt::format(
-          "{}: its recordings differ in channel, flow rate, medium or pixels; each is read by a map of its own.",
-          conditions[c].name));
-  }
-  return warnings;
-}
-
-/// A quantity in the recordings of a condition, in the order of the sessions; empty if one does not tell it.
-std::vector<QuantityEstimate> estimates_of(const std::vector<RecordingReport>& recordings, std::size_t condition,
-                                           PopulationQuantity quantity) {
-  std::vector<QuantityEstimate> estimates;
-  for (const auto& r : recordings) {
-    if (r.condition != condition) continue;
-    const QuantityEstimate* const estimate = r.estimate(quantity);
-    if (!estimate) return {};
-    estimates.push_back(*estimate);
-  }
-  return estimates;
-}
-
-std::vector<RecordingMean> means_of(const std::vector<QuantityEstimate>& estimates) {
-  std::vector<RecordingMean> means;
-  for (const auto& e : estimates) means.push_back(e.mean);
-  return means;
-}
-
-/// Of any recording, in the order in which a model tells them.
-std::vector<PopulationQuantity> quantities_told(const std::vector<RecordingReport>& recordings) {
-  std::vector<PopulationQuantity> told;
-  for (const auto& r : recordings)
-    for (const auto& e : r.quantities)
-      if (std::ranges::find(told, e.quantity) == told.end()) told.push_back(e.quantity);
-  return told;
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
-
-/// A comparison of the condition with zero has the interval of its mean.
-IntervalEstimate mean_of_condition(const std::vector<RecordingMean>& means, double level, bool by_recordings) {
-  const std::vector<RecordingMean> zero(means.size(), {0, 0});
-  const ConditionDifference d = paired_difference(zero, means, {level, {}});
-  if (by_recordings) return {d.value, d.lower, d.upper};
-  return {d.value, d.sampling_lower, d.sampling_upper};
-}
-
-/// Of the recordings of a condition.
-struct StressesOfCondition {
-  std::vector<double> log_stress;
-  double mean = 0;
-};
-
-StressesOfCondition stresses_of(const std::vector<RecordingReport>& recordings, std::size_t condition) {
-  StressesOfCondition stresses;
-  for (const auto& r : recordings)
-    if (r.condition == condition) stresses.log_stress.push_back(std::log(r.wall_stress_Pa()));
-  stresses.mean = mean_of(stresses.log_stress);
-  return stresses;
-}
-
-/// Recordings of one condition at several flow rates tell how a modulus grows with the stress; they scatter about a
-/// line then.
-void tell_stiffening(const std::vector<RecordingMean>& means, const StressesOfCondition& stresses, double level,
-                     ConditionQuantity& told) {
-  std::vector<MeanAtStress> at_stress;
-  for (std::size_t j = 0; j < means.size(); ++j) at_stress.push_back({means[j], stresses.log_stress[j]});
-  if (!differ_in_stress(at_stress)) return;
-  const Stiffening& found = told.stiffening.emplace(stiffening_of(at_stress, level));
-  told.between = {};  // they scatter about the line, not about their mean
-  told.is_by_recordings = found.has_scatter();
-  told.log_mean = found.has_scatter() ? IntervalEstimate{found.value, found.value_lower, found.value_upper}
-                                      : mean_of_condition(means, level, false);
-}
-
-ConditionQuantity condition_quantity(PopulationQuantity quantity, const std::vector<QuantityEstimate>& estimates,
-                                     const StressesOfCondition& stresses, double level) {
-  const auto means = means_of(estimates);
-  std::vector<double> log_spreads;
-  for (const auto& e : estimates) log_spreads.push_back(std::log(e.spread));
-  ConditionQuantity told;
-  told.quantity = quantity;
-  told.is_by_recordings = means.size() > 1;
-  told.log_mean = mean_of_condition(means, level, told.is_by_recordings);
-  told.spread = std::exp(mean_of(log_spreads));
-  told.between = scatter_between(means, level);
-  tell_stiffening(means, stresses, level, told);
-  return told;
-}
-
-ConditionReport condition_report(const std::vector<RecordingReport>& recordings, std::size_t condition,
-                                 const std::string& name, double level) {
-  ConditionReport report;
-  report.name = name;
-  std::vector<double> elongations, radii, log_radius_spreads;
-  for (const auto& r : recordings) {
-    if (r.condition != condition) continue;
-    ++report.recordings;
-    report.events += r.fitted_events;
-    elongations.push_back(r.median_elongation);
-    radii.push_back(r.log_radius);
-    log_radius_spreads.push_back(std::log(r.radius_spread));
-  }
-  report.elongation = mean_of(elongations);
-  const StressesOfCondition stresses = stresses_of(recordings, condition);
-  for (const PopulationQuantity quantity : quantities_told(recordings))
-    if (const auto estimates = estimates_of(recordings, condition, quantity); !estimates.empty())
-      report.quantities.push_back(condition_quantity(quantity, estimates, stresses, level));
-  if (!report.has_numbers()) return report;
-  report.log_radius = mean_of(radii);
-  report.radius_spread = std::exp(mean_of(log_radius_spreads));
-  report.wall_stress_Pa = std::exp(stresses.mean);
-  return report;
-}
-
 }  // namespace
 
 std::vector<PopulationCondition> conditions_of(const PopulationOptions& options) {
@@ -282,14 +159,20 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.session = session;
   r.flow = events.flow;
   r.pixel_size_um = events.pixel_size_um;
+  r.medium = events.medium;
+  r.temperature_C = events.temperature_C;
   r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
-  r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
+  r.median_elongation = no_value;
+  if (events.has_inertia_ratios)
+    r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
   r.direction = events.direction;
   r.table = model_->table(events);
   r.gates = events.gates;
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
   r.warnings = events.warnings;
+  if (const auto inertia = inertia_text(events.flow, events.of(SeenMeasure::viscosity_mPas)); !inertia.empty())
+    r.warnings.push_back(inertia);
   if (!events.gates_beside_the_model.empty() && events.gated > 0)
     r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
                                      events.gates_beside_the_model));
@@ -309,6 +192,25 @@ const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_
   return recordings_.emplace_back(std::move(r));
 }
 
+std::vector<std::string> PopulationAnalysis::unlike_recordings() const {
+  std::vector<RecordingReports> of_condition(conditions_.size());
+  for (const RecordingReport& r : recordings_) of_condition[r.condition].push_back(&r);
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < conditions_.size(); ++c) {
+    const std::string &name = conditions_[c].name, &first = conditions_.front().name;
+    if (const auto differences = differences_within(of_condition[c]); !differences.empty())
+      warnings.push_back(
+          fmt::format("the recordings of {} differ in {}; each is read by its own map, but the cells need not be the "
+                      "same there. How "
+                      "E grows as a power of the stress is told of three flow rates in one channel and one medium.",
+                      name, differences));
+    if (const auto differences = differences_between(of_condition.front(), of_condition[c]); !differences.empty())
+      warnings.push_back(
+          fmt::format("{} and {} differ in {}: their ratio is not that of the cells alone.", name, first, differences));
+  }
+  return warnings;
+}
+
 PopulationReport PopulationAnalysis::report() const {
   PopulationReport report;
   report.model = model_->name();
@@ -318,22 +220,13 @@ PopulationReport PopulationAnalysis::report() const {
   report.outline_noise_um = options_.outline_noise_um.value_or(0);
   report.recordings = recordings_;
   report.systematic_errors = model_->systematic_errors(recordings_);
-  report.warnings = differences_within(recordings_, conditions_);
+  report.warnings = unlike_recordings();
   if (options_.shared_spread)
     for (auto& remark : share_spreads(conditions_, report.level, report.recordings))
       report.warnings.push_back(std::move(remark));
-  for (std::size_t c = 0; c < conditions_.size(); ++c)
-    report.conditions.push_back(condition_report(report.recordings, c, conditions_[c].name, report.level));
-  const ComparisonSettings settings{report.level, options_.between_recordings};
-  for (std::size_t c = 1; c < conditions_.size(); ++c)
-    for (const PopulationQuantity quantity : report.quantities()) {
-      const auto control = means_of(estimates_of(report.recordings, 0, quantity)),
-                 treated = means_of(estimates_of(report.recordings, c, quantity));
-      if (control.empty() || treated.empty()) continue;
-      const auto difference = options_.paired ? paired_difference(control, treated, settings)
-                                              : unpaired_difference(control, treated, settings);
-      report.comparisons.push_back({0, c, quantity, options_.paired, difference});
-    }
+  report.conditions = condition_reports(report.recordings, conditions_, report.level);
+  report.comparisons = comparisons_of(report.recordings, conditions_.size(),
+                                      {options_.paired, {report.level, options_.between_recordings}});
   return report;
 }
 

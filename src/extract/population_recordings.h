@@ -35,15 +35,19 @@ struct IntervalEstimate {
 struct ConditionQuantity {
   PopulationQuantity quantity;
   IntervalEstimate log_mean;
-  bool is_by_recordings = false;  ///< the interval is that of the scatter of recordings; else of sampling
+  bool is_by_recordings = false;  ///< the interval is that of the scatter of recordings; else the wider one of sampling
   double spread = no_value;       ///< between cells, mean over the recordings
   ScatterBetween between;
-  std::optional<Stiffening> stiffening;  ///< if its recordings have different stresses
+  std::optional<Stiffening> stiffening;  ///< if its recordings have three stresses by their flow rates
 };
 
 struct ConditionReport {
   std::string name;
-  std::size_t recordings = 0, events = 0;
+  std::size_t recordings = 0, events = 0;       ///< with numbers; events that were fitted
+  EventsBeyond beyond;                          ///< of these recordings
+  std::vector<std::filesystem::path> left_out;  ///< recordings that could not be fitted
+  std::filesystem::path without_numbers_by;     ///< the recording beyond the table for which there are none
+  std::size_t seen_events() const { return events + beyond.all(); }
   std::vector<ConditionQuantity> quantities;               ///< those that all its recordings tell
   double log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
   double elongation = no_value;                            ///< mean of the recordings' medians
@@ -89,6 +93,8 @@ class PopulationAnalysis {
   PopulationReport report() const;
 
  private:
+  /// In what recordings differ that belong together.
+  std::vector<std::string> unlike_recordings() const;
   RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
   void check_new(const RecordingReport& recording, const PopulationEvents& events);
 

@@ -90,7 +90,7 @@ class SampleMaker {
     const std::size_t classes = by_ == StiffnessMeasure::deformation ? 1 : std::min(kept_classes, order_.size());
     for (std::size_t k = 0; k < classes; ++k)
       take_class(order_.size() * k / classes, order_.size() * (k + 1) / classes);
-    if (made_.is_binned) bin();
+    if (made_.is_binned && !made_.sample.groups.empty()) bin();
     count_elongations_from_their_mean();
     return std::move(made_);
   }
@@ -107,7 +107,7 @@ class SampleMaker {
       if (by_ == StiffnessMeasure::deformation || (e > range.lower && e < range.upper))
         order_.push_back(i);
       else
-        ++made_.beside_table;
+        made_.beyond.add(e > range.lower ? TableSide::longer : TableSide::rounder);
     }
     std::ranges::stable_sort(order_, {}, [&](std::size_t i) { return elongation(i); });
   }
@@ -125,7 +125,7 @@ class SampleMaker {
       const std::size_t i = order_[k];
       const SampleEvent event = sample_event(i);
       if (!gates.pass(event.log_area, event.measure)) {
-        ++made_.beside_table;
+        count_beyond(event, gates, *middle);
         continue;
       }
       ++count;
@@ -145,6 +145,16 @@ class SampleMaker {
       kept_variance += group_counts_[g] / count * std::pow(made_.group_elongation[g] - kept_mean, 2);
     made_.sample.kept.push_back({middle, gates, log_viscosity / count, count, kept_mean, kept_variance});
     made_.class_elongation.push_back(mean);
+  }
+
+  /// It passes the user's gates.
+  void count_beyond(SampleEvent event, const SampleGates& gates, const ForwardMap& map) {
+    if (event.log_area <= gates.least_log_area) return made_.beyond.add(TableSide::smaller);
+    if (event.log_area >= gates.greatest_log_area) return made_.beyond.add(TableSide::larger);
+    made_.beyond.add(TableSide::softer);
+    event.measure = gates.soft_end.at(event.log_area);
+    const ImagedCell last = cell_of_image(map, event);
+    made_.softer_than.push_back(map.soft_end(last.log_radius).log_modulus + last.height + event.log_viscosity);
   }
 
   SampleEvent sample_event(std::size_t i) const {

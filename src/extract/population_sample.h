@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "extract/events_beyond.h"
 #include "extract/modulus_tables.h"
 #include "extract/population_events.h"
 #include "population/sample.h"
@@ -66,7 +67,9 @@ struct PopulationSample {
   struct {
     double mean = 0, unit = 0;
   } elongation;
-  std::size_t beside_table = 0;  ///< events whose measured values the table does not have, or too nearly so
+  EventsBeyond beyond;  ///< whose measured values the table does not have, or too nearly so
+  /// Of each of the softer ones among them: ln(E / kPa) of the softest cell that the sample has at its size.
+  std::vector<double> softer_than = {};
   bool is_binned = false;
 };
 

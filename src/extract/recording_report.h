@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "extract/events_beyond.h"
 #include "extract/population_check.h"
 #include "infer/combined_population.h"
 #include "numeric/no_value.h"
@@ -49,14 +50,21 @@ struct RecordingReport {
   ChannelFlow flow;
   double pixel_size_um = 0, median_viscosity_mPas = 0, median_elongation = 0;
   int direction = 0;
+  std::string medium;               ///< empty if the viscosity was given
+  double temperature_C = no_value;  ///< of its events, or their median; NaN if the viscosity was given
   std::string table, gates;
-  std::size_t recorded = 0, gated = 0, without_numbers = 0, beside_table = 0, fitted_events = 0;
+  std::size_t recorded = 0, gated = 0, without_numbers = 0, fitted_events = 0;
+  EventsBeyond beyond;  ///< the cells of the table
   bool is_binned = false;
   std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
   double log_radius = no_value, radius_spread = no_value;
   std::vector<MeasureCheck> checks;
   std::vector<std::string> settings, warnings;
   std::string failure;  ///< why there is no number, in a sentence; else empty
+  /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
+  /// one would be a selection.
+  bool is_beyond = false;
+  std::optional<double> greatest_log_modulus;  ///< of such softer cells: the median of ln(E / kPa) is below it
 
   FittedCells fitted;  ///< of solids
   SingleImages images;
@@ -64,6 +72,7 @@ struct RecordingReport {
   std::optional<CombinedReport> combined;    ///< of cells with a cortex
 
   const QuantityEstimate* estimate(PopulationQuantity quantity) const;
+  std::size_t seen_events() const { return fitted_events + beyond.all(); }  ///< inside the gates and with numbers
   /// At the wall without a cell, at the median viscosity.
   double wall_stress_Pa() const;
 };

@@ -43,14 +43,30 @@ void tell_bounds(RecordingReport& r) {
 }
 
 /// Where the table lacks many, the population is told by the shape of the rest.
-void tell_beside_table(RecordingReport& r) {
+void tell_beyond(RecordingReport& r) {
   constexpr double worth_a_word = 0.25;
-  const std::size_t events = r.fitted_events + r.beside_table;
-  if (double(r.beside_table) > worth_a_word * double(events))
+  const std::size_t beyond = r.beyond.all(), events = r.seen_events();
+  if (double(beyond) > worth_a_word * double(events))
     r.warnings.push_back(fmt::format(
-        "{} of {} events lie beyond the cells of the table, or too near its ends; the population is that of "
+        "{} of {} events ({}) lie beyond the cells of the table, or too near its ends; the population is that of "
         "all cells as far as the distribution of the others tells it.",
-        r.beside_table, events));
+        beyond, events, r.beyond.shares(events)));
+}
+
+/// Where most events lie on one side of the table the others are a tail, which tells nothing of the rest.
+void refuse_most_beyond(const std::vector<double>& softer_than, RecordingReport& r) {
+  const std::string majority = r.beyond.majority(r.seen_events());
+  if (majority.empty()) return;
+  r.is_beyond = true;
+  r.greatest_log_modulus = bound_of_median(softer_than, r.seen_events());
+  const std::string bound = r.greatest_log_modulus
+                                ? fmt::format("the median of E is below {:.3g} kPa", std::exp(*r.greatest_log_modulus))
+                                : std::string("the others are a tail of all cells, whose median is unknown");
+  r.failure = fmt::format(
+      "{} than the cells of the table {}, or too near its end: {}. Another channel, flow rate or medium brings them "
+      "into "
+      "it; `rheocyte plan` says which.",
+      majority, r.table, bound);
 }
 
 }  // namespace
@@ -78,9 +94,11 @@ std::string SolidPopulations::systematic_errors(std::span<const RecordingReport>
 void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, const std::function<void()>&) {
   table_error_ = std::max(table_error_, maps_.table_error(events));
   const PopulationSample made = population_sample(events, maps_, {no_bins_});
-  r.beside_table = made.beside_table;
+  r.beyond = made.beyond;
   r.fitted_events = std::size_t(std::lround(made.sample.events()));
   r.is_binned = made.is_binned;
+  refuse_most_beyond(made.softer_than, r);
+  if (r.is_beyond) return;
   check_events_of_population(r);
   FitSettings settings;
   settings.threads = threads_;
@@ -88,8 +106,9 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   r.fitted = fit_cells(made.sample, settings);
   if (r.fitted.state == FitState::tail) refuse_tail(r, r.fitted.kept_fraction);
   r.failure = failure_of(r);
+  r.is_beyond = r.fitted.state == FitState::too_stiff;
   tell_bounds(r);
-  tell_beside_table(r);
+  tell_beyond(r);
   for (const std::size_t i : made.events) r.shrunken_events.push_back(std::size_t(events.number[i]));
   if (r.failure.empty()) {
     tell_quantities(r);

@@ -163,7 +163,11 @@ class CombinedSearch {
     found_.mean_cell = model_.mean_cell(q_);
     found_.residual = found_.fit.measured.mean - found_.fit.fitted.mean;
     found_.kept_fraction = model_.kept_fraction(q_);
-    found_.outside = cells_.size() - inside_.size();
+    const auto is_small = [&](const MeasuredCell& cell) { return log_area_of(cell) < log_area_of(median_); };
+    const auto small = std::size_t(std::ranges::count_if(cells_, is_small)),
+               small_inside = std::size_t(std::ranges::count_if(inside_, [&](auto i) { return is_small(cells_[i]); }));
+    found_.smaller = small - small_inside;
+    found_.larger = cells_.size() - inside_.size() - found_.smaller;
     found_.counts.assign(cells_.size(), false);
     for (std::size_t k = 0; k < inside_.size(); ++k) found_.counts[inside_[k]] = !found_.fit.is_stranger[k];
     MatrixXd common = model_.common_covariance(q_);

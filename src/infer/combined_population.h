@@ -29,13 +29,13 @@ struct CombinedPopulation {
   CombinedLaw law;
   /// Of the parameters, by what all events have in common: table, section, and what these miss.
   Eigen::MatrixXd common_covariance;
-  std::vector<int> features;       ///< that were fitted, of ShapeFeature
-  Eigen::VectorXd residual;        ///< of their means, measured - fitted
-  CellCoordinates mean_cell;       ///< of the law, in the table, which may end before
-  std::vector<ShapeVector> drawn;  ///< virtual events of the law, which pass the gates
-  std::vector<bool> counts;        ///< by event: it passes the gates, and is no stranger
-  std::size_t outside = 0;         ///< events that the gates leave out
-  double kept_fraction = 1;        ///< of the cells, by the gates
+  std::vector<int> features;            ///< that were fitted, of ShapeFeature
+  Eigen::VectorXd residual;             ///< of their means, measured - fitted
+  CellCoordinates mean_cell;            ///< of the law, in the table, which may end before
+  std::vector<ShapeVector> drawn;       ///< virtual events of the law, which pass the gates
+  std::vector<bool> counts;             ///< by event: it passes the gates, and is no stranger
+  std::size_t smaller = 0, larger = 0;  ///< events that the gates leave out
+  double kept_fraction = 1;             ///< of the cells, by the gates
 };
 
 /// Of the ln of measured areas between limits, of which 0 and infinity are none.

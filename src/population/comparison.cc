@@ -33,13 +33,27 @@ double sampling_variance(std::span<const RecordingMean> means) {
   return sum / double(means.size() * means.size());
 }
 
-void add_student(ConditionDifference& d, double level) {
-  if (!(d.standard_error > 0)) return;
-  const boost::math::students_t law(d.freedom);
-  const double reach = boost::math::quantile(law, (1 + level) / 2) * d.standard_error;
-  d.lower = d.value - reach;
-  d.upper = d.value + reach;
-  d.p = 2 * boost::math::cdf(boost::math::complement(law, std::abs(d.value) / d.standard_error));
+/// Half the width of an interval, and the two-sided p; none without an error.
+struct TestReach {
+  double half = 0, p = 0;
+};
+template <class Law>
+TestReach reach_by(const Law& law, const ConditionDifference& d, double error, double level) {
+  return {boost::math::quantile(law, (1 + level) / 2) * error,
+          2 * boost::math::cdf(boost::math::complement(law, std::abs(d.value) / error))};
+}
+
+/// Student's t by the scatter of the recordings, or the normal law of their sampling where that is wider.
+void add_wider_test(ConditionDifference& d, double level) {
+  TestReach scatter, sampling;
+  if (d.standard_error > 0) scatter = reach_by(boost::math::students_t(d.freedom), d, d.standard_error, level);
+  if (d.sampling_error > 0) sampling = reach_by(boost::math::normal(), d, d.sampling_error, level);
+  d.is_by_sampling = sampling.half > scatter.half;
+  const double half = std::max(scatter.half, sampling.half);
+  if (half == 0) return;
+  d.lower = d.value - half;
+  d.upper = d.value + half;
+  d.p = std::max(scatter.p, sampling.p);
 }
 
 /// `of_recordings`: variance of the difference by recordings that scatter with a standard deviation of 1.
@@ -106,7 +120,7 @@ ConditionDifference paired_difference(std::span<const RecordingMean> control, st
   if (differences.size() > 1) {
     d.standard_error = std::sqrt(variance_of_mean(differences));
     d.freedom = sessions - 1;
-    add_student(d, settings.level);
+    add_wider_test(d, settings.level);
   }
   add_normal(d, 2 / sessions, settings);
   return d;
@@ -121,7 +135,7 @@ ConditionDifference unpaired_difference(std::span<const RecordingMean> control, 
     const double a = variance_of_mean(control), b = variance_of_mean(treated);
     d.standard_error = std::sqrt(a + b);
     d.freedom = (a + b) * (a + b) / (a * a / double(control.size() - 1) + b * b / double(treated.size() - 1));
-    add_student(d, settings.level);
+    add_wider_test(d, settings.level);
   }
   add_normal(d, 1 / double(control.size()) + 1 / double(treated.size()), settings);
   return d;

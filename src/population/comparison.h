@@ -16,9 +16,12 @@ struct RecordingMean {
 /// Of the mean difference of ln E, treated - control; NaN where there is none.
 struct ConditionDifference {
   double value = no_value;
-  double standard_error = no_value, freedom = no_value;     ///< by the scatter of the recordings
-  double lower = no_value, upper = no_value, p = no_value;  ///< Student's t
-  double sampling_error = no_value;                         ///< as if recordings did not scatter
+  double standard_error = no_value, freedom = no_value;  ///< by the scatter of the recordings
+  /// The wider of the intervals by Student's t and by sampling, and the greater p of both: recordings scatter at least
+  /// as their sampling has it (eq:wider).
+  double lower = no_value, upper = no_value, p = no_value;
+  bool is_by_sampling = false;       ///< these are those of the sampling
+  double sampling_error = no_value;  ///< as if recordings did not scatter
   double sampling_lower = no_value, sampling_upper = no_value;
   /// With a standard deviation between recordings that is known from earlier experiments.
   double known_lower = no_value, known_upper = no_value, known_p = no_value;

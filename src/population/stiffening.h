@@ -14,20 +14,20 @@ struct MeanAtStress {
   double log_stress;
 };
 
-/// beta of E ~ stress^beta, and the condition at the mean of ln(stress). NaN where there is none.
+/// beta of E ~ stress^beta, and ln E of the condition at the mean of ln(stress), each with the wider of the intervals
+/// by the scatter of the recordings about the line (Student's t) and by their sampling.
 struct Stiffening {
-  double exponent = no_value;
-  double freedom = no_value;                  ///< recordings less 2
-  double lower = no_value, upper = no_value;  ///< by the scatter of the recordings about the line; Student's t
-  double sampling_lower = no_value, sampling_upper = no_value;              ///< as if they did not scatter
-  double value = no_value, value_lower = no_value, value_upper = no_value;  ///< of ln E, by the scatter about the line
-  bool has_scatter() const { return freedom > 0; }
+  double exponent = no_value, lower = no_value, upper = no_value;
+  double value = no_value, value_lower = no_value, value_upper = no_value;
+  double freedom = no_value;  ///< recordings less 2
 };
 
-/// Whether the stresses differ by more than their own scatter: by 5 %.
-bool differ_in_stress(std::span<const MeanAtStress> means);
+/// How many stresses there are that differ by more than their own scatter: by 5 %.
+int distinct_stresses(std::span<const MeanAtStress> means);
+/// With fewer stresses nothing tells a power from any other law.
+inline constexpr int fewest_stresses_of_a_power = 3;
 
-/// The straight line of least squares. At least two stresses that differ (asserted).
+/// The straight line of least squares. At least fewest_stresses_of_a_power stresses that differ (asserted).
 Stiffening stiffening_of(std::span<const MeanAtStress> means, double level);
 
 }  // namespace rheocyte

@@ -10,6 +10,7 @@
 #include "case/user_error.h"
 #include "extract/polygon_file.h"
 #include "extract/population_json.h"
+#include "extract/population_lines.h"
 #include "extract/recording_settings.h"
 #include "extract/settings_text.h"
 #include "serve/few_at_once.h"

@@ -53,6 +53,17 @@ TEST(MeasureCheck, AShiftOfAllIsToldOfAll) {
   EXPECT_NE(check_text({check}).find("does not fit: d is 1"), std::string::npos) << check_text({check});
 }
 
+/// Masks of another convention move all values alike; what is moved further still shows.
+TEST(MeasureCheck, WhatTheConventionOfTheMasksMovesIsNoMisfit) {
+  const CheckedValues predicted = values(10'000, 2, 0);
+  for (const double shift : {-0.4, 0.4}) {
+    const CheckedValues measured = values(2000, 1, 0, shift);
+    EXPECT_FALSE(compared_measure("d", MeasureRule::not_fitted, measured, predicted).fits);
+    EXPECT_TRUE(compared_measure("d", MeasureRule::not_fitted, measured, predicted, 0.4).fits);
+    EXPECT_FALSE(compared_measure("d", MeasureRule::not_fitted, measured, predicted, 0.1).fits);
+  }
+}
+
 TEST(MeasureCheck, FewEventsHaveNoThirds) {
   const MeasureCheck check = compared_measure("d", MeasureRule::not_fitted, values(60, 1, 0), values(10'000, 2, 0));
   EXPECT_TRUE(check.thirds.empty());

@@ -57,6 +57,13 @@ def test_a_population_tells_its_estimates_and_its_checks(record):
     assert "by sampling alone, no p" in repr(shown(record))
 
 
+def test_events_beyond_the_table_stand_beside_the_number(record):
+    record["conditions"][1]["beyond_the_table"] = {"softer": 80, "longer": 1, "larger": 0}
+    found = shown(record)
+    assert "events: 190, and beyond the table 30 % softer" in repr(found), "190 + 81 events; 0.4 % are not worth a word"
+    assert list(found.conditions["beyond_the_table"]) == [0, pytest.approx(81 / 271)]
+
+
 def test_a_recording_that_is_not_there_is_named(record):
     found = shown(record)
     for wrong in (9, "control1.rtdc", None):
