@@ -43,6 +43,8 @@ Columns counts() {
     std::ranges::replace(name, ' ', '_');
     columns.push_back({name, [k](const S& s) { return double(s.counts[k]); }, digits_of_counts});
   }
+  columns.push_back({"cut_by_the_edge", [](const S& s) { return double(s.counts[std::size_t(ModulusState::cut)]); },
+                     digits_of_counts});
   return columns;
 }
 

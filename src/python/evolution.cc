@@ -81,7 +81,7 @@ class PythonEvolution {
 
  private:
   template <class Value>
-  static auto column(const std::vector<HistoryRow>& rows, const Value& value) {
+  static py::object column(const std::vector<HistoryRow>& rows, const Value& value) {
     std::vector<double> values;
     for (const HistoryRow& row : rows) values.push_back(value(row));
     return array_of(std::move(values));
