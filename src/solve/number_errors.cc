@@ -96,7 +96,8 @@ StateNumbers errors_of_change(const StateNumbers& coarser, const StateNumbers& n
   const double d = numbers.shape.deformation, outline = change_of_outline({}, numbers);
   errors.shape.deformation = std::abs(coarser.shape.deformation - d);
   if (outline > 0)
-    errors.shape.deformation = std::max(errors.shape.deformation, of_outline * std::abs(d) * change.outline / outline);
+    errors.shape.deformation =
+        std::max(errors.shape.deformation, change.outline * std::min(of_outline * std::abs(d) / outline, 1.0));
   return errors;
 }
 
