@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "extract/cortex_shapes.h"
 #include "measurement/pixel_errors.h"
 #include "population/virtual_event.h"
 
@@ -122,6 +124,20 @@ EventValues measured_values(const PopulationEvents& events, std::size_t i) {
   return values;
 }
 
+Median beyond(const MeasureCheck& check) {
+  return {check.measured.value - check.predicted.value, std::hypot(check.measured.error, check.predicted.error)};
+}
+
+/// c_4 and c_5 of cells with a cortex do not fit, however small they are beside the spread.
+void refuse_cortex(double pixel_size_um, std::vector<MeasureCheck>& checks) {
+  const double radius_um = std::exp(checks[checked_area].measured.value / 2) * std::numbers::inv_sqrtpi;
+  if (!are_of_cortex({checks[checked_mode_3].measured.value, radius_um / pixel_size_um, beyond(checks[checked_mode_4]),
+                      beyond(checks[checked_mode_5])}))
+    return;
+  for (const int mode : {checked_mode_4, checked_mode_5})
+    checks[std::size_t(mode)].fits = checks[std::size_t(mode)].fits_together = false;
+}
+
 }  // namespace
 
 std::vector<MeasureCheck> check_population(const PopulationEvents& events, const PopulationSample& sample,
@@ -160,6 +176,7 @@ std::vector<MeasureCheck> check_population(const PopulationEvents& events, const
                                       {measured[std::size_t(m)], measured[checked_area]},
                                       {predicted[std::size_t(m)], predicted[checked_area]}, convention));
   }
+  if (events.has_outlines) refuse_cortex(events.pixel_size_um, checks);
   return checks;
 }
 

@@ -32,7 +32,7 @@ std::string missing_text(const ConditionReport& c) {
 
 std::string no_number_text(const ConditionReport& c) {
   if (c.without_numbers_by.empty()) return "because none of its recordings has one";
-  return fmt::format("because {} has none: its cells are beyond what can be told, and the others alone are a selection",
+  return fmt::format("because {} has none: most of its cells lie beyond the table, or are too stiff to be seen",
                      file_name(c.without_numbers_by));
 }
 

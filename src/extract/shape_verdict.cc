@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extract/cortex_shapes.h"
 #include "extract/growth_of_asymmetry.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
@@ -45,16 +46,7 @@ ShapeVerdict::Fit ShapeVerdict::fit() const {
 }
 
 bool ShapeVerdict::has_cortex_shapes() const {
-  // Beyond those of solids c_4 of cells with a cortex is lower and c_5 higher, together by 0.18 to 0.25 of c_3 (virtual
-  // cells of 1 to 2 kPa with 10 to 20 mN/m, d = 0.01 to 0.015); of solids of any law by -0.07 to 0.02 of it. Another
-  // rule for the pixels of the edge than "centre inside" makes up to 0.05 pixels of the radius, whatever c_3 is
-  // (bench/independent_recordings.py: up to 0.0041 where the radius has 14 pixels).
-  constexpr double of_asymmetry = 0.06, of_masks_px = 0.06, usual_radius_px = 20, deviations = 4;
-  const double of_masks = of_masks_px / (radius_px > 0 ? radius_px : usual_radius_px);
-  const double difference = cortex_mode_5.value - cortex_mode_4.value,
-               error = std::hypot(cortex_mode_4.error, cortex_mode_5.error);
-  return with_elongation >= fewest_for_a_verdict &&
-         difference > std::max(of_masks + of_asymmetry * std::abs(asymmetry), deviations * error);
+  return with_elongation >= fewest_for_a_verdict && are_of_cortex({asymmetry, radius_px, cortex_mode_4, cortex_mode_5});
 }
 
 GrowthOfAsymmetry growth_of_asymmetry(const ShapeVerdict& v) {
