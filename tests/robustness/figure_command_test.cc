@@ -20,7 +20,8 @@ TEST(FigureCommand, BadArgumentsAreRefusedAndLeaveNothing) {
   const TemporaryFolder folder;
   const auto out = (folder.path() / "out").string();
   expect_refusal({}, "N is required");
-  for (const std::string number : {"1", "0", "five", "5.0", ""}) expect_refusal({number, "-o", out}, "available are ");
+  for (const std::string number : {"1", "0", "five", "5.0"}) expect_refusal({number, "-o", out}, "available are ");
+  expect_refusal({"", "-o", out}, "an argument is empty");
   expect_refusal({"-5", "-o", out}, "-5");
   expect_refusal({"5", "6", "-o", out}, "6");
   expect_refusal({"5", "-o"}, "-o");
