@@ -35,7 +35,7 @@ def extract(recording, *, progress=None, **settings):
     axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
     young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
     settings, warnings, shapes (what is said
-    about the shapes of all events, in sentences), recommended (which modulus of the recording is to be reported, a dictionary of
+    about the shapes of all events, in sentences), recommended (the modulus of the recording that is to be reported, a dict of
     the columns "recommended_..." of the summary table: modulus is "deformation", "elongated" or "none",
     young_modulus_median_kPa with young_modulus_median_error_kPa by the scatter of the events and young_modulus_common_error_kPa
     that they share, text the sentence; None for what is not known).

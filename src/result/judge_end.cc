@@ -140,7 +140,10 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
   const double d = stationary.shape.deformation, fraction = d / std::max(d, result.state.deformation_floor);
-  if (settled) result.state.estimated_error = fraction * (std::abs(distance) + stationary.estimated_error);
+  if (settled) {
+    result.state.estimated_error = fraction * (std::abs(distance) + stationary.estimated_error);
+    result.state.step_error = 0;  // whatever they were, the shape is the stationary one
+  }
   const bool is_other_channel =
       problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
   if (settled) result.state.errors = errors_by(stationary, is_other_channel, result.state);
@@ -154,25 +157,36 @@ bool is_error_unknown(const StationaryState& state) {
   return has_failed && !std::isfinite(state.estimated_error);
 }
 
-/// Finer steps where those make most of it. A finer mesh as far as there is one; else to ask for less. With a greater
-/// accuracy the floor falls.
+/// What time.mesh_accuracy is of: the error without that of the steps.
+double mesh_error(const StationaryState& state) {
+  return std::isfinite(state.step_error) ? std::max(state.estimated_error - state.step_error, 0.0)
+                                         : state.estimated_error;
+}
+
+/// A finer mesh as far as there is one; else to ask for less. With a greater accuracy the floor falls.
 std::string ways_to_mesh_accuracy(const Problem& problem, const StationaryState& state) {
-  if (state.step_error > state.estimated_error / 2)
-    return fmt::format("the steps make {:.1e} of it: lower time.accuracy.",
-                       std::min(state.step_error, state.estimated_error));
   const int finer = state.statistics.degree + 2;
   if (finer <= max_time_degree_of(problem))
     return fmt::format("take a finer mesh, time.degree = {} in place of time.mesh_accuracy.", finer);
   const double d = state.shape.deformation;
-  return ways_to_accuracy("time.mesh_accuracy", state.estimated_error * std::max(d, state.deformation_floor) / d);
+  return ways_to_accuracy("time.mesh_accuracy", mesh_error(state) * std::max(d, state.deformation_floor) / d);
+}
+
+/// Where the steps make the error greater than what the mesh may make.
+std::string steps_text(const StationaryState& state, double wanted) {
+  if (!(state.estimated_error > wanted) || !(state.step_error > state.estimated_error / 2)) return {};
+  return fmt::format(
+      " The error of its deformation is estimated at {:.1e}, {:.1e} of it by the steps: lower time.accuracy.",
+      state.estimated_error, state.step_error);
 }
 
 /// Settles the status by the last state.
 void judge(Result& result) {
   const StationaryState& state = result.state;
-  const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL), error = state.estimated_error;
+  const double wanted = result.input.time.mesh_accuracy.value_or(HUGE_VAL), error = mesh_error(state);
   const bool is_unknown = is_error_unknown(state);
   Outcome& outcome = result.state.outcome;
+  outcome.message += steps_text(state, wanted);
   const Status status = judged(outcome.status, {state.stability_margin, is_unknown ? HUGE_VAL : error, wanted});
   if (status == outcome.status) return;
   outcome.status = status;
@@ -182,7 +196,7 @@ void judge(Result& result) {
     outcome.message +=
         fmt::format(" Whether it is within the wanted {:.1e} (time.mesh_accuracy) cannot be said.", wanted);
   else
-    outcome.message += fmt::format(" Its error is estimated at {:.1e}, and {:.1e} is wanted; {}", error, wanted,
+    outcome.message += fmt::format(" The mesh makes an error of {:.1e}, and {:.1e} is requested; {}", error, wanted,
                                    ways_to_mesh_accuracy(result.problem, state));
 }
 

@@ -259,7 +259,7 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
     assert filled["viscosity_mPas"][5:].equals(without["viscosity_mPas"][5:])
     with h5py.File(file, "r+") as recording:
         del recording["events/temp"]
-    with pytest.raises(UserError, match="give temperature in degrees Celsius, or the viscosity with viscosity_mPas."):
+    with pytest.raises(UserError, match=r"Give it in degrees Celsius \(temperature_if_missing\), or the viscosity \(viscosity_mPas\)."):
         rheocyte.extract(file)
     assert np.allclose(rheocyte.extract(file, temperature_if_missing=30)["viscosity_mPas"], at_30)
 
