@@ -16,7 +16,8 @@ constexpr double beyond_soft_end = 0.5, beyond_stiff_end = 3;
 /// A slope of ln of the stiffness by ln of the progress that is never exceeded.
 constexpr double least_slope_of_stiffness = -0.1;
 /// Of what the law of the square leaves of single cells, what two cells of one population have in common
-/// (bench/square_law.py: 0.4 and 0.07 of cells that are within and about two and more of its spreads from one another).
+/// (studies/square_law.py: 0.4 and 0.07 of cells that are within and about two and more of its spreads from one
+/// another).
 constexpr double variance_in_common = 0.2;
 constexpr double deviations_from_end = 3;
 

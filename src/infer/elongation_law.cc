@@ -7,7 +7,7 @@ namespace rheocyte {
 
 namespace {
 
-// bench/elongation_law fitted them to cells of the table HE-3D-el-26.
+// studies/elongation_law fitted them to cells of the table HE-3D-el-26.
 constexpr ElongationLaw mode_3_law{-2.11005, 6.58713,  93.3806,  -170.144, -568.017, 1045.2,
                                    14.8043,  -24.2761, -509.359, 1025.96,  4365.03,  -8614.17,
                                    -10.1284, 29.703,   1005.97,  -2212.25, -11722.5, 24430.8};

@@ -1,4 +1,4 @@
-// Made by bench/square_law.py from cells that it has solved, for square_law.cc alone.
+// Made by studies/square_law.py from cells that it has solved, for square_law.cc alone.
 #pragma once
 #include <array>
 

@@ -15,7 +15,7 @@ struct CellInSquare {
 };
 
 /// Of modes of single cells between the branches of the table: in the median 1e-4, in the mean square 3e-4
-/// (bench/square_law.py).
+/// (studies/square_law.py).
 inline constexpr double error_between_branches = 2e-4;
 /// Of cells with other laws than neo-Hookean ones the law leaves this many times as much (docs/theory-extract.md).
 inline constexpr double error_factor_of_other_laws = 6;

@@ -11,7 +11,7 @@ namespace {
 
 using Law = PixelErrorLaws::Law;
 
-// Coefficients of deformation^i s^j, s = (area in pixels)^(-1/3); bench/pixel_errors fitted them to shapes of several
+// Coefficients of deformation^i s^j, s = (area in pixels)^(-1/3); studies/pixel_errors fitted them to shapes of several
 // models: LE-2D-26 (to d = 0.19 and, by its modes, to 0.06), HE-3D-26, HE-3D-MC083-26 and LE-3D-MC049-26 (500 shapes of
 // each at 60 places).
 constexpr Law area_law{{{3.95086, -7.00899, 13.1321},
@@ -35,7 +35,7 @@ constexpr Law correlation_law{{{-1.11222, 3.80416, -14.5582},
                                {-437, 5265.94, -19648.1},
                                {1789.2, -22097.7, 81869.6}}};
 
-// Coefficients of x^i y^j s^k, k running fastest; bench/mode_errors fitted them to shapes of the table HE-3D-el-26
+// Coefficients of x^i y^j s^k, k running fastest; studies/mode_errors fitted them to shapes of the table HE-3D-el-26
 // (5000 shapes at 300 places each). Even laws, with x = c_2 and y = |c_3|: i and j to 2, and then c_4 times i and j
 // to 1. Odd ones: c_3 times i to 2 and j to 3, and then c_5 times i and j to 1. By inertia, with x = deformation and y
 // = inertia ratio - 1: i and j to 2.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Where cells are that came into the funnel of a chip beside its axis, and what a camera sees of them there.
 
-    bench/centring.py [--program build/rheocyte] [--workers 2] [--degree 3] [--folder FOLDER] [--moduli-kPa 1 2 4]
+    studies/centring.py [--program build/rheocyte] [--workers 2] [--degree 3] [--folder FOLDER] [--moduli-kPa 1 2 4]
 
 Cells of 6 um and 1, 2 and 4 kPa, evenly distributed over the middle 64 um of the mouth of a planar funnel (100 to 20 um at
 45 degrees, 20 um high; 0.04 ul/s, 6 mPa s; nearer to the wall the mesh cannot follow them), are followed to 250 um behind

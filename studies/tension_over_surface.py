@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does the tension that elongates cells vary over their surface, or relax on their way? What sizes and places of cells say.
 
-    bench/tension_over_surface.py [HL60.rtdc]
+    studies/tension_over_surface.py [HL60.rtdc]
 
 The cell of the model that has the shape of HL60 cells (docs/real-cells.md) is solved at several sizes under one even
 tension. One that went as a power of the local shear rate would elongate it as its mean over the surface does, weighted as

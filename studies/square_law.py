@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How the shape of a cell in the square channel differs from that of the cell of the combined table: square_law.h.
 
-    bench/square_law.py FILE [--cells 2900] [--workers 2] [--law src/infer/square_changes.h]
+    studies/square_law.py FILE [--cells 2900] [--workers 2] [--law src/infer/square_changes.h]
 
 Random neo-Hookean cells with bulk, cortex and a tension of the liquid are solved in the square channel, with liquids of
 exponents from 0.5 to 1 and the bending stiffness of a thin cortex, and in the tube with the Newtonian liquid of the same
@@ -225,7 +225,7 @@ def array_of(name, rows):
 def write_law(file, numbers, change, spread, correlation):
     laws = [Law(numbers, wanted).coefficients for wanted in change.T]
     file.write_text("\n".join([
-        "// Made by bench/square_law.py from cells that it has solved, for square_law.cc alone.", "#pragma once",
+        "// Made by studies/square_law.py from cells that it has solved, for square_law.cc alone.", "#pragma once",
         "#include <array>", "", "namespace rheocyte {", "",
         "/// A feature's change is c_3 times a sum of terms.", *array_of("square_changes", laws),
         "/// Standard deviation of what the sums leave, over c_3, and its correlations.",
