@@ -1,6 +1,7 @@
 # discover_suites(<target> [PREFIX <prefix>] [LABEL <label>] [ONLY <regex>] [EXCEPT <regex>]): one test of ctest for each
 # suite of a program of GoogleTest, so that what its tests share is made once. The suites are listed when the program has
-# been built; ONLY and EXCEPT choose them by their names.
+# been built; ONLY and EXCEPT choose them by their names. The target check-<name of the program without _test> builds the
+# program and runs all but the slow ones.
 set(list_suites ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
 function(discover_suites target)
   cmake_parse_arguments(arg "" "PREFIX;LABEL;ONLY;EXCEPT" "" ${ARGN})
@@ -18,4 +19,8 @@ else()
 endif()
 ]] @ONLY)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${tests}.in)
+  string(REGEX REPLACE "_test$" "" room ${target})
+  if(NOT TARGET check-${room})
+    add_custom_target(check-${room} COMMAND ${target} --gtest_brief=1 "--gtest_filter=-*Slow.*" DEPENDS ${target} USES_TERMINAL)
+  endif()
 endfunction()
