@@ -22,7 +22,7 @@ PopulationCondition condition_in(const std::string& name, const Json& recordings
   PopulationCondition condition{name, {}};
   const Json list = recordings.is_string() ? Json::array({recordings}) : recordings;
   for (const Json& recording : list) {
-    if (!list.is_array() || !recording.is_string() || recording == "")
+    if (!list.is_array() || !recording.is_string() || recording.get_ref<const std::string&>().empty())
       throw UserError(fmt::format("the condition {} must be a list of recordings, such as [\"A1.rtdc\", \"A2.rtdc\"].",
                                   one_line(name, 60)));
     condition.recordings.push_back(folder / to_path(recording.get<std::string>()));

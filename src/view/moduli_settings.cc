@@ -49,7 +49,9 @@ ExtractOptions extract_options(const Json& settings, const TableItem& table_item
   Json resolved = settings;
   if (settings.contains("table") && !settings["table"].is_null())
     resolved["table"] = named_table(settings["table"], table_item);
-  if (resolved.value("table", Json()) == "") resolved.erase("table");  // that of the medium
+  const auto table = resolved.find("table");
+  if (table != resolved.end() && table->is_string() && table->get_ref<const std::string&>().empty())
+    resolved.erase(table);  // that of the medium
   return options_of_settings(resolved);
 }
 
