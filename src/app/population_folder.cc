@@ -80,7 +80,7 @@ void PopulationFolder::check(const fs::path& place) const {
 void PopulationFolder::write(const PopulationReport& report) {
   const std::string json = population_json(report);
   const auto add = [&](const char* name, const std::string& content, std::string_view mark) {
-    written_.push_back(options_.folder / name);
+    written_.push_back(options_.folder / to_path(name));
     files_.add_text(written_.back(), content, mark);
   };
   for (const RecordingReport& recording : report.recordings) add_events(recording, report);
