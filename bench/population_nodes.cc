@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "extract/population_sample.h"
+#include "experiment/population_sample.h"
 #include "population/fit_cells.h"
 #include "program.h"
 

@@ -3,7 +3,7 @@
 from rheocyte.native_module import native
 from rheocyte.settings import declared
 
-STUB = '''# Made by `python -m rheocyte.recordings_stub`; the settings are declared in src/extract/recording_settings.cc.
+STUB = '''# Made by `python -m rheocyte.recordings_stub`; the settings are declared in src/events/recording_settings.cc.
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, Protocol

@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
-#include "extract/dclab_plugin.h"
+#include "report/dclab_plugin.h"
 #include "store/python_package.h"
 #include "store/read_file.h"
 

@@ -9,9 +9,9 @@
 #include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
-#include "extract/features_recording.h"
-#include "extract/plausibility.h"
-#include "extract/recording_settings.h"
+#include "events/plausibility.h"
+#include "events/recording_settings.h"
+#include "report/features_recording.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
 

@@ -5,7 +5,7 @@
 
 #include "app/cli.h"
 #include "app/commands.h"
-#include "extract/experiment_plan.h"
+#include "experiment/experiment_plan.h"
 #include "store/own_file.h"
 #include "store/standard_output.h"
 

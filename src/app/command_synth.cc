@@ -14,7 +14,7 @@
 #include "case/key_reading.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
-#include "extract/virtual_cells.h"
+#include "shelf/virtual_cells.h"
 #include "store/atomic_file.h"
 #include "store/build_info.h"
 #include "store/isolated.h"

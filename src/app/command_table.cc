@@ -12,7 +12,7 @@
 #include "app/exit_codes.h"
 #include "case/case_text.h"
 #include "case/user_error.h"
-#include "extract/tube_table.h"
+#include "shelf/tube_table.h"
 #include "store/build_info.h"
 #include "store/progress.h"
 #include "store/python_package.h"

@@ -5,7 +5,7 @@
 
 #include "app/cli.h"
 #include "app/key_option.h"
-#include "extract/recording_settings.h"
+#include "events/recording_settings.h"
 
 namespace rheocyte {
 

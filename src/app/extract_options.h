@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 
-#include "extract/options.h"
-#include "extract/setting.h"
+#include "events/options.h"
+#include "events/setting.h"
 
 namespace CLI {
 class App;

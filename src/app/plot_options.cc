@@ -11,9 +11,9 @@
 #include "case/refuse_path.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
-#include "extract/recording_list.h"
-#include "extract/recording_settings.h"
-#include "extract/shape_features.h"
+#include "events/recording_list.h"
+#include "events/recording_settings.h"
+#include "report/shape_features.h"
 
 namespace rheocyte {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "extract/plot_options.h"
+#include "report/plot_options.h"
 
 namespace CLI {
 class App;

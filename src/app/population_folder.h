@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "extract/population_recordings.h"
+#include "experiment/population_recordings.h"
 #include "store/python_package.h"
 #include "store/result_files.h"
 

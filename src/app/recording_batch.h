@@ -13,8 +13,8 @@
 
 #include "app/exit_codes.h"
 #include "case/user_error.h"
-#include "extract/options.h"
-#include "extract/recording_list.h"
+#include "events/options.h"
+#include "events/recording_list.h"
 #include "store/isolated.h"
 #include "store/standard_error.h"
 #include "store/stop_signal.h"

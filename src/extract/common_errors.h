@@ -3,7 +3,7 @@
 #pragma once
 #include <cmath>
 
-#include "extract/plausibility.h"
+#include "events/plausibility.h"
 #include "infer/elongated_solids.h"
 
 namespace rheocyte {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
-#include "extract/options.h"
+#include "events/options.h"
 #include "infer/square_course.h"
 #include "infer/time_course.h"
 #include "store/progress.h"

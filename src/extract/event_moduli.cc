@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "case/user_error.h"
-#include "extract/shipped_tables.h"
 #include "measurement/metadata.h"
+#include "shelf/shipped_tables.h"
 
 namespace rheocyte {
 

@@ -1,12 +1,12 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
-#include "extract/extract_settings.h"
+#include "events/extract_settings.h"
 #include "extract/moduli_summary.h"
-#include "extract/square_section.h"
 #include "infer/bulk_cortex_fit.h"
 #include "infer/common_tension.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
+#include "shelf/square_section.h"
 
 namespace rheocyte {
 

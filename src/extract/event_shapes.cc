@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extract/direction_of_cells.h"
+#include "events/direction_of_cells.h"
 #include "measurement/contour_tilt.h"
 #include "measurement/pixel_errors.h"
 #include "measurement/shape_source.h"

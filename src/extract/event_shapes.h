@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "extract/elongation_columns.h"
+#include "extract/elongation_values.h"
 #include "infer/elongated_liquid.h"
 #include "infer/shape_map.h"
 #include "measurement/contour_features.h"

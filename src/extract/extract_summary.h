@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "events/extract_settings.h"
 #include "extract/distribution.h"
-#include "extract/extract_settings.h"
 #include "extract/shape_verdict.h"
 #include "infer/modulus_state.h"
 

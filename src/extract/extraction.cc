@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "case/user_error.h"
+#include "events/plausibility.h"
 #include "extract/common_errors.h"
 #include "extract/fitting_table.h"
-#include "extract/plausibility.h"
 #include "extract/soft_ends.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"

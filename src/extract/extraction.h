@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "extract/event_columns.h"
+#include "events/extract_settings.h"
+#include "events/gates.h"
+#include "events/options.h"
+#include "extract/event_block.h"
 #include "extract/event_shapes.h"
-#include "extract/extract_settings.h"
 #include "extract/extract_summary.h"
-#include "extract/gates.h"
-#include "extract/modulus_tables.h"
-#include "extract/options.h"
 #include "extract/shape_tally.h"
 #include "measurement/event_features.h"
 #include "measurement/recording.h"
 #include "measurement/shape_source.h"
+#include "shelf/modulus_tables.h"
 
 namespace rheocyte {
 
@@ -31,10 +31,10 @@ class Extraction {
   const ExtractSettings& settings() const { return settings_; }
   const ShapeSource& shapes() const { return shapes_; }
   const EventShapes& event_shapes() const { return event_shapes_; }
-  /// What is told of each event.
-  ColumnsOf<EventBlock> columns() const {
-    return event_columns({table_.is_rheocyte_table(), event_shapes_.is_known(), event_shapes_.has_asymmetry(),
-                          event_shapes_.elongated_by()});
+  /// What there is of each event.
+  EventKnowledge knowledge() const {
+    return {table_.is_rheocyte_table(), event_shapes_.is_known(), event_shapes_.has_asymmetry(),
+            event_shapes_.elongated_by()};
   }
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
   void measure_outlines() { event_shapes_.measure_outlines(settings_.pixel_size_um); }

@@ -1,7 +1,7 @@
 // Which of the program's other tables has cells that look like those of a recording.
 #pragma once
-#include "extract/modulus_tables.h"
 #include "extract/shape_tally.h"
+#include "shelf/modulus_tables.h"
 
 namespace rheocyte {
 

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "extract/direction_of_cells.h"
-#include "extract/event_pass.h"
-#include "extract/modulus_tables.h"
-#include "extract/outlined_events.h"
-#include "extract/plausibility.h"
+#include "events/direction_of_cells.h"
+#include "events/event_pass.h"
+#include "events/outlined_events.h"
+#include "events/plausibility.h"
 #include "infer/shape_map.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
+#include "shelf/modulus_tables.h"
 #include "store/build_info.h"
 #include "store/tasks.h"
 

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "extract/event_moduli.h"
-#include "extract/event_table.h"
-#include "extract/moduli_columns.h"
+#include "extract/moduli_block.h"
 #include "extract/moduli_summary.h"
 #include "measurement/recording.h"
 #include "store/progress.h"
@@ -31,25 +30,5 @@ class ModuliConsumer {
 ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
                                   const ModuliTable& table, int threads, ModuliConsumer& consumer,
                                   const TellProgress& report_progress);
-
-/// The text table.
-class ModuliText : public ModuliConsumer {
- public:
-  /// UserError, also of the calls that follow, if it cannot be written.
-  explicit ModuliText(std::filesystem::path file) : file_(std::move(file)) {}
-  void begin(const Recording&, const std::vector<std::string>& remarks) override {
-    table_.emplace(file_, remarks, descriptions(values_.columns()));
-  }
-  void take(std::size_t, const ModuliBlock& block) override { table_->append(values_.of(block)); }
-  void end(const std::vector<std::string>& remarks) override {
-    table_->remark(remarks);
-    table_->close();
-  }
-
- private:
-  std::filesystem::path file_;
-  BlockValues<ModuliBlock> values_{moduli_columns()};
-  std::optional<EventTable> table_;
-};
 
 }  // namespace rheocyte

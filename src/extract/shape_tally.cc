@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "extract/plausibility.h"
+#include "events/plausibility.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 

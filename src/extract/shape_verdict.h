@@ -8,7 +8,7 @@
 
 #include "extract/beside_axis.h"
 #include "extract/distribution.h"
-#include "extract/elongation_columns.h"
+#include "extract/elongation_values.h"
 #include "numeric/censored_median.h"
 #include "numeric/density_maxima.h"
 #include "numeric/no_value.h"

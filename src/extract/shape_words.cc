@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "events/plausibility.h"
 #include "extract/growth_of_asymmetry.h"
-#include "extract/plausibility.h"
 #include "extract/recommendation.h"
 
 namespace rheocyte {

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "case/to_path.h"
-#include "extract/shipped_tables.h"
-#include "extract/time_course_table.h"
-#include "extract/virtual_cells.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "report/time_course_table.h"
+#include "shelf/shipped_tables.h"
+#include "shelf/virtual_cells.h"
 #include "store/atomic_file.h"
 #include "store/build_info.h"
 #include "synth/virtual_recording.h"

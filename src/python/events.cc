@@ -7,14 +7,15 @@
 #include <string>
 
 #include "case/json_guard.h"
-#include "extract/event_pass.h"
+#include "events/event_pass.h"
 #include "extract/extraction.h"
-#include "extract/recommended_columns.h"
 #include "extract/shape_words.h"
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "report/event_columns.h"
+#include "report/recommended_columns.h"
 
 namespace rheocyte {
 
@@ -28,7 +29,7 @@ GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions
   Recording recording(file);
   EventPass pass(recording, report_progress);
   Extraction extraction(recording, options, tables);
-  GatheredColumns<EventBlock> events(extraction.columns());
+  GatheredColumns<EventBlock> events(event_columns(extraction.knowledge()));
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
   const ExtractSummary summary = extraction.summary();

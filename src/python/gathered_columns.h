@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "extract/event_column.h"
 #include "python/shared_columns.h"
+#include "report/event_column.h"
 
 namespace rheocyte {
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "case/user_error.h"
-#include "extract/options.h"
+#include "events/options.h"
 #include "python/shared_memory.h"
 #include "store/isolated.h"
 

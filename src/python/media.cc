@@ -4,7 +4,7 @@
 #include <string>
 
 #include "case/user_error.h"
-#include "extract/recording_temperature.h"
+#include "events/recording_temperature.h"
 #include "numeric/no_value.h"
 #include "python/arrays.h"
 #include "python/bindings.h"

@@ -1,5 +1,5 @@
 // What commands that read recordings are asked for.
-#include "extract/options.h"
+#include "events/options.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "extract/recording_settings.h"
-#include "extract/settings_text.h"
+#include "events/recording_settings.h"
+#include "events/settings_text.h"
 #include "python/bindings.h"
 
 namespace rheocyte {

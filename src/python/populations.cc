@@ -3,12 +3,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "extract/experiment_plan.h"
-#include "extract/population_json.h"
-#include "extract/population_tables.h"
+#include "experiment/experiment_plan.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "report/population_json.h"
+#include "report/population_tables.h"
 #include "store/stop_signal.h"
 
 namespace rheocyte {

@@ -11,6 +11,7 @@
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "report/moduli_columns.h"
 #include "store/thread.h"
 
 namespace rheocyte {

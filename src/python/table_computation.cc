@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "extract/tube_table.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
+#include "shelf/tube_table.h"
 #include "store/build_info.h"
 #include "sweep/sample_branch.h"
 #include "sweep/table_work.h"

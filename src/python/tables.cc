@@ -11,10 +11,6 @@
 
 #include "case/to_path.h"
 #include "case/user_error.h"
-#include "extract/dclab_plugin.h"
-#include "extract/find_table.h"
-#include "extract/modulus_tables.h"
-#include "extract/shipped_tables.h"
 #include "infer/isoelasticity_lines.h"
 #include "infer/map_as_lut.h"
 #include "infer/read_modulus_map.h"
@@ -23,6 +19,10 @@
 #include "python/bindings.h"
 #include "python/buffer.h"
 #include "python/interruptible.h"
+#include "report/dclab_plugin.h"
+#include "shelf/find_table.h"
+#include "shelf/modulus_tables.h"
+#include "shelf/shipped_tables.h"
 #include "store/own_file.h"
 
 namespace rheocyte {

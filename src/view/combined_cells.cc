@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "case/write_case.h"
-#include "extract/moduli_columns.h"
+#include "report/moduli_columns.h"
 #include "view/event_json.h"
 #include "view/model_outline.h"
 

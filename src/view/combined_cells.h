@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "events/outlined_events.h"
 #include "extract/event_moduli.h"
-#include "extract/outlined_events.h"
 
 namespace rheocyte {
 

@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "extract/extraction.h"
 #include "measurement/event_outlines.h"
+#include "report/event_columns.h"
 #include "serve/grey_png.h"
 #include "shape/outline_shape.h"
 #include "view/combined_cells.h"
@@ -154,7 +155,7 @@ Json value_json(const ColumnDescription& column, double value) {
 void add_columns(const Extraction& extraction, const EventBlock& block, Json& j) {
   for (const auto& column : event_columns({true, true, true, ElongatedBy::modes}))
     j[column.name] = column.is_flag ? Json(false) : Json();
-  BlockValues<EventBlock> values(extraction.columns());
+  BlockValues<EventBlock> values(event_columns(extraction.knowledge()));
   const auto numbers = values.of(block);
   for (std::size_t k = 0; k < numbers.size(); ++k)
     j[values.columns()[k].name] = value_json(values.columns()[k], numbers[k][0]);

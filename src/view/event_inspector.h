@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "extract/modulus_tables.h"
-#include "extract/options.h"
+#include "events/options.h"
 #include "measurement/event_outlines.h"
 #include "measurement/recording.h"
+#include "shelf/modulus_tables.h"
 #include "view/recording_columns.h"
 
 namespace rheocyte {

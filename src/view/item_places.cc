@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "case/user_error.h"
-#include "extract/recording_list.h"
+#include "events/recording_list.h"
 
 namespace rheocyte {
 

@@ -7,7 +7,7 @@
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
-#include "extract/extract_recording.h"
+#include "report/extract_recording.h"
 #include "store/file_version.h"
 #include "store/thread.h"
 #include "view/describe_item.h"

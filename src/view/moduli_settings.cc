@@ -6,10 +6,10 @@
 
 #include "case/to_path.h"
 #include "case/user_error.h"
-#include "extract/polygon_file.h"
-#include "extract/recording_settings.h"
-#include "extract/settings_text.h"
-#include "extract/shipped_tables.h"
+#include "events/polygon_file.h"
+#include "events/recording_settings.h"
+#include "events/settings_text.h"
+#include "shelf/shipped_tables.h"
 #include "view/path_text.h"
 
 namespace rheocyte {

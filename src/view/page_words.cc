@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "extract/recording_settings.h"
+#include "events/recording_settings.h"
 
 namespace rheocyte {
 

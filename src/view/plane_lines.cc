@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "case/json_guard.h"
-#include "extract/plot_lines.h"
+#include "report/plot_lines.h"
 #include "view/case_from_json.h"
 
 namespace rheocyte {

@@ -8,8 +8,8 @@
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
-#include "extract/event_columns.h"
-#include "extract/moduli_columns.h"
+#include "report/event_columns.h"
+#include "report/moduli_columns.h"
 
 namespace rheocyte {
 

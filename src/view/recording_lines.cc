@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/user_error.h"
-#include "extract/plot_lines.h"
+#include "report/plot_lines.h"
 #include "view/page_words.h"
 #include "view/plane_lines.h"
 

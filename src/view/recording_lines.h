@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "extract/options.h"
+#include "events/options.h"
 #include "measurement/recording.h"
 
 namespace rheocyte {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "extract/companion_origin.h"
-#include "extract/recommended_columns.h"
+#include "events/companion_origin.h"
 #include "extract/shape_words.h"
-#include "extract/summary_columns.h"
+#include "report/recommended_columns.h"
+#include "report/summary_columns.h"
 #include "store/file_writer.h"
 
 namespace rheocyte {

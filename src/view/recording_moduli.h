@@ -4,9 +4,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "extract/extract_recording.h"
 #include "extract/moduli_recording.h"
 #include "measurement/companion_file.h"
+#include "report/extract_recording.h"
+#include "report/moduli_columns.h"
 
 namespace rheocyte {
 

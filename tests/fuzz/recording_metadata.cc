@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "extract/extract_settings.h"
+#include "events/extract_settings.h"
 #include "extract/extract_summary.h"
 #include "measurement/basin.h"
 #include "measurement/recording_file.h"

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "case/json_guard.h"
-#include "extract/extract_recording.h"
 #include "infer/modulus_state.h"
 #include "measurement/recording_writer.h"
+#include "report/extract_recording.h"
 #include "store/file_version.h"
 #include "view/view_items.h"
 #include "virtual_cells.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "extract/virtual_cells.h"
+#include "shelf/virtual_cells.h"
 #include "synth/virtual_recording.h"
 
 namespace rheocyte::test {

@@ -1,0 +1,187 @@
+#include "events/extract_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "case/case_keys.h"
+#include "case/refuse_path.h"
+#include "case/user_error.h"
+#include "events/plausibility.h"
+#include "numeric/no_value.h"
+
+namespace rheocyte {
+
+namespace {
+
+// A key of the metadata, and what stands for it on the command line and in a case.
+struct Quantity {
+  const char *key, *unit, *way_out;
+  Range range;
+};
+
+Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
+
+// Of what is no positive number; with a decimal comma, for example, the text tells what is wrong.
+std::string what_is_stored(const Recording& recording, const std::string& key) {
+  if (!recording.metadata().has(key)) return key + " is missing";
+  const auto text = recording.metadata().text(key);
+  return text ? fmt::format("{} is \"{}\", which is not a positive number", key, one_line(*text, 40))
+              : key + " is not a positive number";
+}
+
+double quantity(const Recording& recording, const std::optional<double>& given, const Quantity& wanted) {
+  if (given) return *given;
+  const auto& [key, unit, way_out, range] = wanted;
+  const auto stored = recording.metadata().number(key);
+  if (stored && *stored > 0 && !range.contains(*stored))
+    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
+                                              *stored, range_text(range, unit), way_out));
+  if (stored && *stored > 0) return *stored;
+  refuse_path(recording.file(), fmt::format("{}; give it with {}.", what_is_stored(recording, key), way_out));
+}
+
+void check_region(const Recording& recording) {
+  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
+  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (region != "channel")
+    refuse_path(recording.file(),
+                fmt::format("was recorded in the {}, where cells are not deformed by the channel; moduli exist "
+                            "only for recordings with setup:chip region \"channel\".",
+                            one_line(region, 40)));
+}
+
+ViscosityModel chosen_model(const MeasuringOptions& options) {
+  const std::string name = options.viscosity_model.value_or("buyukurganci-2022");
+  const auto model = viscosity_model_of_name(name);
+  if (model) return *model;
+  throw UserError(fmt::format("rheocyte: unknown viscosity model {}; there are buyukurganci-2022 and herold-2017.",
+                              one_line(name, 60)));
+}
+
+Medium chosen_medium(const MeasuringOptions& options, const Recording& recording) {
+  const auto name = options.medium ? options.medium : recording.metadata().text("setup:medium");
+  const auto medium = name ? medium_of_name(*name) : std::nullopt;
+  if (medium) return *medium;
+  const std::string way_out =
+      "give the viscosity with --viscosity-mPas, or one of CellCarrier, CellCarrierB, 0.83% MC-PBS, water with "
+      "--medium";
+  if (!name) refuse_path(recording.file(), fmt::format("setup:medium is missing; {}.", way_out));
+  const std::string sentence =
+      fmt::format("the medium \"{}\" has no known viscosity{}; {}.", one_line(*name, 60), near_medium(*name), way_out);
+  if (options.medium) throw UserError("rheocyte: " + sentence);
+  refuse_path(recording.file(), sentence);
+}
+
+std::string outside(const ExtractSettings& settings) {
+  const auto range = settings.buffer->measured();
+  return fmt::format("outside {} to {} degC, for which the viscosity model {} was measured.", range.lowest,
+                     range.highest, settings.model_text());
+}
+
+void warn_about_temperature(ExtractSettings& settings) {
+  if (settings.viscosity_varies() || settings.buffer->measured().contains(settings.temperature_C)) return;
+  settings.warnings.push_back(fmt::format("{} degC is {}", settings.temperature_C, outside(settings)));
+}
+
+// Virtual recordings tell the viscosity itself.
+std::optional<double> stored_viscosity(const MeasuringOptions& options, const Recording& recording) {
+  const auto medium = options.medium ? options.medium : recording.metadata().text("setup:medium");
+  if (options.medium || (medium && medium_of_name(*medium))) return std::nullopt;
+  const auto stored = recording.metadata().number(viscosity_key);
+  if (stored) check_viscosity(*stored, one_line(recording.file().string(), 300) + ": " + viscosity_key);
+  return stored;
+}
+
+}  // namespace
+
+std::string ExtractSettings::medium_text() const { return buffer ? std::string(name_of(buffer->medium())) : ""; }
+
+std::string ExtractSettings::model_text() const { return buffer ? std::string(name_of(buffer->model())) : "given"; }
+
+std::string ExtractSettings::temperature_text() const {
+  switch (temperature_from) {
+    case TemperatureSource::none: return "";
+    case TemperatureSource::feature: return "of each event";
+    case TemperatureSource::metadata: return fmt::format("{} degC (metadata)", temperature_C);
+    default: return fmt::format("{} degC (given)", temperature_C);
+  }
+}
+
+std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const {
+  if (!viscosity_varies()) {
+    std::ranges::fill(mPas, conditions.flow.viscosity_mPas);
+    return 0;
+  }
+  std::vector<double> temperatures(mPas.size());
+  recording.read_scalar("temp", first, temperatures);
+  for (double& celsius : temperatures)
+    if (!is_possible_temperature(celsius)) celsius = temperature_of_others_C;
+  buffer->viscosity(conditions.flow, temperatures, mPas);
+  const auto is_outside = [range = buffer->measured()](double celsius) {
+    return std::isfinite(celsius) && !range.contains(celsius);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(temperatures, is_outside));
+}
+
+std::string ExtractSettings::outside_temperature_text(std::size_t events) const {
+  return fmt::format("{} {} {}", events, events == 1 ? "event has a temperature" : "events have temperatures",
+                     outside(*this));
+}
+
+std::vector<std::string> ExtractSettings::lines() const {
+  std::vector<std::string> lines{fmt::format("channel width: {} um", conditions.flow.width_um),
+                                 fmt::format("flow rate: {} ul/s", conditions.flow.rate_ul_s)};
+  if (conditions.pixel_size_um > 0) lines.push_back(fmt::format("pixel size: {} um", conditions.pixel_size_um));
+  if (buffer)
+    lines.push_back(
+        fmt::format("viscosity: {} by {}, temperature {}", medium_text(), model_text(), temperature_text()));
+  if (!viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", conditions.flow.viscosity_mPas));
+  return lines;
+}
+
+MeasuredRanges measured_ranges() { return {range_of("channel.width_um"), range_of("flow.rate_ul_per_s"), {0.01, 10}}; }
+
+double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out) {
+  return quantity(recording, given, {"imaging:pixel size", "um", way_out, measured_ranges().pixel_size_um});
+}
+
+ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
+  check_region(recording);
+  ExtractSettings settings;
+  auto& conditions = settings.conditions;
+  ChannelFlow& flow = conditions.flow;
+  const MeasuredRanges ranges = measured_ranges();
+  flow.width_um = quantity(recording, options.channel_width_um,
+                           {"setup:channel width", "um", "--channel-width-um", ranges.channel_width_um});
+  flow.rate_ul_s = quantity(recording, options.flow_rate_ul_s,
+                            {"setup:flow rate", "ul/s", "--flow-rate-ul-s", ranges.flow_rate_ul_s});
+  if (pixels != PixelUse::ignore)
+    settings.pixel_size_um = conditions.pixel_size_um =
+        pixel_size_um(recording, options.pixel_size_um,
+                      pixels == PixelUse::fit ? "--pixel-size-um" : "--pixel-size-um, or give --no-pixelation");
+  else
+    settings.pixel_size_um =
+        options.pixel_size_um.value_or(recording.metadata().number("imaging:pixel size").value_or(0));
+  settings.warnings = contradictions(recording, options.flow_rate_ul_s ? 0 : flow.rate_ul_s, settings.pixel_size_um);
+  conditions.correct_area = pixels == PixelUse::correct;
+  const auto viscosity = options.viscosity_mPas ? options.viscosity_mPas : stored_viscosity(options, recording);
+  if (viscosity) {
+    flow.viscosity_mPas = *viscosity;
+    return settings;
+  }
+  settings.buffer.emplace(chosen_medium(options, recording), chosen_model(options));
+  const RecordingTemperature temperature = temperature_of(options, recording);
+  settings.temperature_from = temperature.from;
+  settings.temperature_C = temperature.celsius;
+  settings.temperature_of_others_C = temperature.of_others;
+  settings.warnings.insert(settings.warnings.end(), temperature.warnings.begin(), temperature.warnings.end());
+  warn_about_temperature(settings);
+  flow.exponent = settings.buffer->flow_exponent(temperature.celsius);
+  if (!settings.viscosity_varies()) flow.viscosity_mPas = settings.buffer->viscosity(flow, settings.temperature_C);
+  return settings;
+}
+
+}  // namespace rheocyte

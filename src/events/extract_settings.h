@@ -1,0 +1,66 @@
+// With which channel, flow and viscosity the events of one recording are taken: from the command line, else its
+// metadata.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "case/key.h"
+#include "events/options.h"
+#include "events/recording_temperature.h"
+#include "infer/modulus_map.h"
+#include "measurement/recording.h"
+#include "measurement/viscosity.h"
+#include "numeric/no_value.h"
+
+namespace rheocyte {
+
+/// What is done about the pixels.
+enum class PixelUse {
+  correct,              ///< area and deformation, as far as the table wants it
+  correct_deformation,  ///< the area stays as measured
+  ignore,               ///< nothing is corrected; the size need not be known
+  fit  ///< no correction beforehand: a fit to the contour takes account of them, so the size must be known
+};
+
+struct ExtractSettings {
+  /// Pixel size 0: no correction. The viscosity is 0 if it varies from event to event; the exponent is that of the
+  /// medium at the recording's temperature, 1: Newtonian or unknown.
+  MeasuringConditions conditions;
+  double pixel_size_um = 0;      ///< 0 if unknown
+  std::optional<Buffer> buffer;  ///< nothing: the viscosity was given
+  TemperatureSource temperature_from = TemperatureSource::none;
+  double temperature_C = 0;                   ///< of all events, or their median
+  double temperature_of_others_C = no_value;  ///< of single events without a possible one of their own; NaN: none
+  std::vector<std::string> warnings;          ///< sentences without the file's name
+
+  bool viscosity_varies() const { return temperature_from == TemperatureSource::feature; }
+  /// Of events [first, first + mPas.size()) (mPa s); NaN for events without a possible temperature. Returns how many
+  /// temperatures lie outside those for which the model was measured; there it extrapolates. UserError if the data are
+  /// damaged.
+  std::size_t viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const;
+  /// The warning for so many events.
+  std::string outside_temperature_text(std::size_t events) const;
+
+  /// What the moduli rest on, one line each: channel width, flow rate, size of a pixel if it counts, viscosity.
+  std::vector<std::string> lines() const;
+  std::string medium_text() const;       ///< "0.49% MC-PBS", or "" if the viscosity was given
+  std::string model_text() const;        ///< "buyukurganci-2022", or "given"
+  std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
+};
+
+/// What stored numbers can be; others have a unit that was mistaken.
+struct MeasuredRanges {
+  Range channel_width_um, flow_rate_ul_s, pixel_size_um;
+};
+MeasuredRanges measured_ranges();
+
+/// The size of a pixel that is given, else that of the metadata. UserError if it is missing or cannot be so; `way_out`
+/// names the options.
+double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out);
+
+/// UserError naming what is missing and the option that gives it; also for recordings of the reservoir.
+ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording);
+
+}  // namespace rheocyte

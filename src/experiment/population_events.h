@@ -1,0 +1,71 @@
+// The events of one recording as populations are fitted to: all that is measured of each cell.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "case/channel_flow.h"
+#include "events/options.h"
+#include "infer/solid_maps.h"
+#include "numeric/no_value.h"
+#include "shape/outline_shape.h"
+#include "store/progress.h"
+
+namespace rheocyte {
+
+/// What is measured of each event.
+enum class SeenMeasure {
+  area_um2,
+  deformation,
+  inertia_ratio,
+  mode_2,
+  mode_3,
+  mode_4,
+  mode_5,
+  mode_6,
+  mode_7,
+  viscosity_mPas
+};
+inline constexpr int seen_measures = int(SeenMeasure::viscosity_mPas) + 1;
+
+struct PopulationEvents {
+  ChannelFlow flow;  ///< its viscosity does not count
+  double pixel_size_um = 0;
+  bool has_outlines = false, has_inertia_ratios = true;
+  int direction = 0;         ///< in which the cells move (direction_of_cells.h)
+  std::size_t recorded = 0;  ///< events of the recording, also those that are left out
+  std::size_t gated = 0, without_numbers = 0;
+  /// Limits of the gates on area and deformation; those that are not part of the model in words.
+  double least_area_um2 = 0, greatest_area_um2 = 0, least_deformation = 0, greatest_deformation = 0;
+  std::string gates, gates_beside_the_model;
+  std::vector<double> number;                                ///< of each event in the recording, from 1 on
+  std::array<std::vector<double>, seen_measures> seen = {};  ///< 0: those that the recording does not have
+  std::vector<std::string> settings, warnings;
+  std::string made_of;              ///< of virtual cells (made_of_key)
+  std::string medium;               ///< empty if the viscosity was given
+  double temperature_C = no_value;  ///< of all events, or their median; NaN if the viscosity was given
+
+  std::size_t events() const { return number.size(); }
+  /// Of at least one event; what is not measured is 0.
+  ShapeVector median_shape() const;
+  const std::vector<double>& of(SeenMeasure m) const { return seen[std::size_t(m)]; }
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.flow, s.pixel_size_um, s.has_outlines, s.has_inertia_ratios, s.direction, s.recorded, s.gated,
+                    s.without_numbers, s.least_area_um2, s.greatest_area_um2, s.least_deformation,
+                    s.greatest_deformation, s.gates, s.gates_beside_the_model, s.number, s.seen[0], s.seen[1],
+                    s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.settings,
+                    s.warnings, s.made_of, s.medium, s.temperature_C);
+  }
+};
+
+/// Of those events inside the gates of which everything is a number. UserError for what is wrong with the recording:
+/// the asymmetry needs contours or masks, the odd part of the deformation these or inertia ratios.
+PopulationEvents read_population_events(const std::filesystem::path& recording, const MeasuringOptions& options,
+                                        StiffnessMeasure by, const TellProgress& report_progress);
+
+}  // namespace rheocyte

@@ -1,0 +1,46 @@
+#include "experiment/population_model.h"
+
+#include <fmt/format.h>
+
+#include "case/refuse_path.h"
+#include "case/user_error.h"
+#include "experiment/combined_populations.h"
+#include "experiment/solid_populations.h"
+
+namespace rheocyte {
+
+std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options) {
+  if (options.model == "cortex") {
+    if (options.shared_spread)
+      throw UserError(
+          "rheocyte: --shared-spread is for solids; cells with a cortex have their spreads recording by recording.");
+    return std::make_unique<CombinedPopulations>(options);
+  }
+  if (options.model.empty() || options.model == "solid") {
+    if (options.section)
+      throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");
+    if (options.outline_noise_um.value_or(0) > 0 && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
+      throw UserError(
+          fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
+                      "of whole outlines alone. Leave one of them out.",
+                      options.by));
+    return std::make_unique<SolidPopulations>(options);
+  }
+  throw UserError(fmt::format("rheocyte: --model {}: it must be solid or cortex.", one_line(options.model, 40)));
+}
+
+void check_events_of_population(const RecordingReport& report) {
+  constexpr std::size_t fewest_population_events = 20;
+  if (report.fitted_events < fewest_population_events)
+    refuse_path(report.recording, fmt::format("has {} events that the gates and the table of its cells leave, of {}; a "
+                                              "population needs at least {}.",
+                                              report.fitted_events, report.recorded, fewest_population_events));
+}
+
+void refuse_tail(const RecordingReport& report, double kept_fraction) {
+  refuse_path(report.recording, fmt::format("the gates leave a tail of its cells, {:.1g} of them; nothing certain can "
+                                            "be said of the rest. Widen the gates.",
+                                            kept_fraction));
+}
+
+}  // namespace rheocyte

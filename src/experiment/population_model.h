@@ -1,0 +1,37 @@
+// Of what cells the populations of recordings are: each model tells of one recording what it can, in the same numbers.
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "events/options.h"
+#include "experiment/population_events.h"
+#include "experiment/recording_report.h"
+
+namespace rheocyte {
+
+class PopulationModel {
+ public:
+  virtual ~PopulationModel() = default;
+  virtual std::string_view name() const = 0;
+  /// As it stands in the records.
+  virtual std::string_view elongation_text() const = 0;
+  virtual std::string table(const PopulationEvents& events) = 0;
+  /// What the recordings have in common, in words, with relative errors.
+  virtual std::string systematic_errors(std::span<const RecordingReport> recordings) const = 0;
+  /// Fits the population of a recording and adds what is found, or why there are no numbers; `goes_on` is called from
+  /// step to step where that takes long. UserError: too few events, none inside the gates, gates that leave a tail.
+  virtual void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) = 0;
+};
+
+/// `--model`: solids, or solids with a cortex. UserError if it is none, or a table is missing, or does not go with it.
+std::unique_ptr<PopulationModel> population_model(const PopulationOptions& options);
+
+/// UserError below the events that a population needs.
+void check_events_of_population(const RecordingReport& report);
+
+/// UserError: gates that keep less than least_kept_fraction.
+[[noreturn]] void refuse_tail(const RecordingReport& report, double kept_fraction);
+
+}  // namespace rheocyte

@@ -1,0 +1,80 @@
+// What one recording says about its cells as a population.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/channel_flow.h"
+#include "events/events_beyond.h"
+#include "experiment/population_check.h"
+#include "infer/combined_population.h"
+#include "numeric/no_value.h"
+#include "population/comparison.h"
+#include "population/fit_cells.h"
+#include "population/single_images.h"
+
+namespace rheocyte {
+
+/// By what conditions are compared: numbers of cells whose logarithms have a mean and a spread in each recording. The
+/// tension is that of the cortex, the axial tension that of the liquid.
+enum class PopulationQuantity { young_modulus, stiffness, cortex_modulus, cortex_tension, axial_tension, count };
+struct QuantityWords {
+  std::string_view key;  ///< as in the records, with the unit
+  std::string_view symbol, unit;
+};
+QuantityWords words_of(PopulationQuantity quantity);
+
+/// Of ln of a quantity among the cells of a recording.
+struct QuantityEstimate {
+  PopulationQuantity quantity;
+  RecordingMean mean;       ///< the variance is that of its events
+  double spread = 0;        ///< standard deviation between cells
+  double common_error = 0;  ///< standard error that recordings of one set-up share
+};
+
+/// Of cells with a cortex.
+struct CombinedReport {
+  CombinedPopulation found;
+  Section section = Section::square;
+  double wall_stress_Pa = 0;
+  std::size_t strangers = 0;
+  std::string not_told;  ///< why bulk and cortex are not told apart, in words; empty if they are
+};
+
+/// One recording; its events stay outside.
+struct RecordingReport {
+  std::filesystem::path recording;
+  std::size_t condition = 0, session = 0;  ///< counted from 0
+  ChannelFlow flow;
+  double pixel_size_um = 0, median_viscosity_mPas = 0, median_elongation = 0;
+  int direction = 0;
+  std::string medium;               ///< empty if the viscosity was given
+  double temperature_C = no_value;  ///< of its events, or their median; NaN if the viscosity was given
+  std::string table, gates;
+  std::size_t recorded = 0, gated = 0, without_numbers = 0, fitted_events = 0;
+  EventsBeyond beyond;  ///< the cells of the table
+  bool is_binned = false;
+  std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
+  double log_radius = no_value, radius_spread = no_value;
+  std::vector<MeasureCheck> checks;
+  std::vector<std::string> settings, warnings;
+  std::string failure;  ///< why there is no number, in a sentence; else empty
+  /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
+  /// one would be a selection.
+  bool is_beyond = false;
+  std::optional<double> greatest_log_modulus;  ///< of such softer cells: the median of ln(E / kPa) is below it
+
+  FittedCells fitted;  ///< of solids
+  SingleImages images;
+  std::vector<std::size_t> shrunken_events;  ///< number of the event, from 1 on, of each of fitted.shrunken
+  std::optional<CombinedReport> combined;    ///< of cells with a cortex
+
+  const QuantityEstimate* estimate(PopulationQuantity quantity) const;
+  std::size_t seen_events() const { return fitted_events + beyond.all(); }  ///< inside the gates and with numbers
+  /// At the wall without a cell, at the median viscosity.
+  double wall_stress_Pa() const;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,83 @@
+// What is told of the cells that recordings saw along a channel, and of their population.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "extract/course_events.h"
+#include "report/row_column.h"
+#include "shelf/square_section.h"
+
+namespace rheocyte {
+
+/// With these words the file begins: its first line holds the names of all columns.
+inline constexpr std::string_view mark_of_courses = "recording\tcell\tevents\tfirst_place_um\t";
+
+/// Of a cell that was seen again, in the channel of its recording.
+struct CourseRow {
+  std::string recording;
+  double cell = 0, events = 0;  ///< its number, and how many events it is
+  double first_place_um = 0, last_place_um = 0, radius_um = 0;
+  Credible young_modulus_kPa{}, viscosity_Pas{};
+  double chi_squared = 0;
+  double section_factor = 1;  ///< of c_3, over that in the tube
+  double section_error = 0;   ///< relative, of E, within its interval
+  DrawnOut drawn_out{};
+  std::string status = {}, event_numbers = {};
+};
+
+/// A new column is declared in report/time_course_table.cc.
+const RowColumns<CourseRow>& course_columns();
+
+struct CourseReport {
+  std::vector<CourseRow> rows;
+  std::vector<std::string> remarks;  ///< the settings, and the lines
+  std::vector<std::string> lines;    ///< for the terminal
+  PopulationEstimate population;
+};
+
+/// The file: a line for each row, the remarks below.
+std::string course_text(const CourseReport& report);
+
+class CourseTable {
+ public:
+  /// The table must outlive it. `section`: in which the cells were seen, see section_seen. UserError where it is the
+  /// tube and the table is one of the square.
+  CourseTable(const DynamicTable& table, std::optional<Section> section);
+
+  /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
+  void add(const CourseEvents& events, const std::string& name, double contraction_um);
+
+  /// Of all recordings; `goes_on` is called from cell to cell. UserError as check_places_seen, and if no cell is seen
+  /// again and most events lie where the table has none.
+  CourseReport report(const std::function<void()>& goes_on) const;
+
+ private:
+  struct Row {
+    std::string recording;
+    CourseCell cell;
+    ChannelFlow flow;
+  };
+  CourseRow told(const Row& row, std::size_t number) const;
+  void check_places(const std::vector<CourseCell>& cells) const;
+  bool is_of_square() const;  ///< the table
+  /// Whether the table's channel and liquid are not those of a recording.
+  bool is_elsewhere(const CourseEvents& events) const;
+  /// What is said where they are not.
+  std::string section_text(const std::vector<CellImages>& cells) const;
+  /// What is said of elongated cells; empty if they are not.
+  std::string elongation_text(const CourseReport& report) const;
+
+  const DynamicTable& table_;
+  std::optional<Section> section_;
+  SquareSection square_;
+  bool are_elsewhere_ = false;  ///< the cells of any recording
+  std::string square_table_;    ///< by which they are brought to the table's channel and liquid; empty: they are not
+  double unsettled_ = 0;
+  std::vector<Row> rows_;
+  std::vector<std::string> remarks_;
+  std::size_t outside_places_ = 0, outside_areas_ = 0;
+};
+
+}  // namespace rheocyte

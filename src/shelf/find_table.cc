@@ -1,0 +1,107 @@
+#include "shelf/find_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "case/joined.h"
+#include "case/nearest_name.h"
+#include "case/to_path.h"
+#include "case/user_error.h"
+#include "shelf/shipped_tables.h"
+#include "store/environment.h"
+#include "store/read_file.h"
+
+namespace rheocyte {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Below lib/pythonX.Y of a prefix, or on Windows below Lib.
+void add_packages_of(const fs::path& prefix, std::vector<fs::path>& folders) {
+  if (prefix.empty()) return;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(prefix / "lib", error)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "site-packages") folders.push_back(entry.path());
+    if (!name.starts_with("python3")) continue;
+    for (const char* const kind : {"site-packages", "dist-packages"}) folders.push_back(entry.path() / kind);
+  }
+}
+
+// Of the python3 that a shell would start: its environment, and that in which a link to it leads.
+void add_packages_of_python(std::vector<fs::path>& folders) {
+  const fs::path program = program_in_path(python_name);
+  if (program.empty()) return;
+  std::error_code error;
+  for (const fs::path& place : {program, fs::canonical(program, error)})
+    add_packages_of(prefix_of_program(place), folders);
+}
+
+std::vector<fs::path> package_folders() {
+  std::vector<fs::path> folders = folders_in("PYTHONPATH");
+  add_packages_of(to_path(environment("VIRTUAL_ENV")), folders);
+  add_packages_of(to_path(environment("CONDA_PREFIX")), folders);
+  add_packages_of_python(folders);
+  if (const fs::path home = to_path(environment("HOME")); !home.empty()) add_packages_of(home / ".local", folders);
+  add_packages_of("/usr/local", folders);
+  add_packages_of("/usr", folders);
+  return folders;
+}
+
+// The identifier that the metadata in the head of a table give, without reading its numbers.
+std::string identifier_of(const fs::path& file) {
+  constexpr std::size_t longest_head = std::size_t{64} << 10U;
+  std::istringstream stream(first_bytes(file, longest_head).value_or(""));
+  for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
+    const auto key = line.find("\"identifier\"");
+    if (key == std::string::npos) continue;
+    const auto start = line.find('"', line.find(':', key));
+    const auto end = start == std::string::npos ? start : line.find('"', start + 1);
+    if (end != std::string::npos) return line.substr(start + 1, end - start - 1);
+  }
+  return {};
+}
+
+std::map<std::string, fs::path> installed_tables() {
+  std::map<std::string, fs::path> tables;
+  for (const auto& folder : package_folders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / "dclab/features/emodulus", error)) {
+      if (entry.path().extension() != ".txt") continue;
+      const auto identifier = identifier_of(entry.path());
+      if (!identifier.empty()) tables.try_emplace(identifier, entry.path());
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+fs::path find_table(const std::string& wanted, const std::string& asked_by) {
+  std::error_code error;
+  if (fs::path file = to_path(wanted); fs::exists(file, error)) return file;
+  auto tables = shipped_tables();
+  tables.merge(installed_tables());
+  if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
+  const auto names = names_in(tables);
+  const std::string place = fmt::format("rheocyte: {} {}: there is neither such a file nor such a table{}", asked_by,
+                                        one_line(wanted, 200), did_you_mean(wanted, names));
+  const bool has_published =
+      std::ranges::any_of(tables, [](const auto& table) { return table.second.extension() == ".txt"; });
+  const std::string published =
+      has_published
+          ? ""
+          : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was looked for in "
+            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, beside the python3 of the PATH, in ~/.local, /usr/local and /usr.";
+  throw UserError(names.empty() ? place + ". Give the path of a table." + published
+                                : fmt::format("{} (there are {}).{}", place, joined(names, ", "), published));
+}
+
+}  // namespace rheocyte

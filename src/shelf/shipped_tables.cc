@@ -1,0 +1,66 @@
+#include "shelf/shipped_tables.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "case/joined.h"
+#include "case/user_error.h"
+#include "store/build_info.h"
+#include "store/supplied_folder.h"
+#include "table/table_files.h"
+
+namespace rheocyte {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
+
+/// A name that is no table of this kind.
+[[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun) {
+  const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
+  const auto tables = table_files(tables_folder(), kind);
+  const std::string names = joined(names_in(tables), ", ");
+  for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
+    if (other != kind && table_files(tables_folder(), other).contains(wanted))
+      throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, names));
+  throw UserError(fmt::format(
+      "{}there is neither such a file nor such a folder. With the program comes {}; any other {} is made first, by "
+      "`rheocyte table`, which takes from two minutes to two hours (docs/tables.md).",
+      place, names, noun));
+}
+
+fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun) {
+  std::error_code error;
+  if (!wanted.empty() && fs::exists(wanted, error)) return wanted;
+  const auto shipped = table_files(tables_folder(), kind);
+  if (wanted.empty() && shipped.empty())
+    throw UserError(fmt::format(
+        "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
+        noun, tables_folder().string()));
+  const auto found = wanted.empty() ? shipped.begin() : shipped.find(wanted.string());
+  if (found == shipped.end()) refuse(wanted.string(), kind, noun);
+  return found->second;
+}
+
+}  // namespace
+
+std::map<std::string, fs::path> shipped_tables() { return table_files(tables_folder(), "grid"); }
+
+std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(tables_folder(), "elongated"); }
+
+std::map<std::string, fs::path> shipped_combined_tables() { return table_files(tables_folder(), "combined"); }
+
+std::map<std::string, fs::path> shipped_dynamic_tables() { return table_files(tables_folder(), "dynamic"); }
+
+fs::path combined_table_or_shipped(const fs::path& wanted) {
+  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex");
+}
+
+fs::path dynamic_table_or_shipped(const fs::path& wanted) {
+  return wanted_or_shipped(wanted, "dynamic", "table of cells on their way");
+}
+
+}  // namespace rheocyte
