@@ -8,20 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace rheocyte {
+#include "report/column.h"
 
-/// All about a column but its values.
-struct ColumnDescription {
-  std::string name;            ///< with its unit: in tables and in Python
-  std::string_view unit = {};  ///< as it is written; empty for pure numbers
-  std::string label = {};      ///< for the eye, without the unit
-  std::string sentence = {};   ///< what it is
-  std::string role = {};       ///< in a companion, which has few names; empty: it is not there
-  int rank = 0;                ///< of the role: the least ones have names first; 0: a feature of the field's programs
-  int digits = 0;              ///< in text; 0: as many as give back single precision (relative 6e-8)
-  std::span<const std::string_view> words = {};  ///< for which the numbers stand
-  bool is_flag = false;
-};
+namespace rheocyte {
 
 /// With the values of the events of a block, which lie in the block, or in the room until it is used again.
 template <class Block>

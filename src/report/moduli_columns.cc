@@ -10,7 +10,7 @@ namespace rheocyte {
 
 namespace {
 
-constexpr int digits_of_values = 6, digits_of_errors = 3, digits_of_ratios = 4;
+constexpr int digits_of_ratios = 4;
 
 std::span<const std::string_view> words_of_statuses() {
   static const auto words = [] {

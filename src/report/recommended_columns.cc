@@ -19,7 +19,7 @@ constexpr std::string_view start = "recommended_";
 
 }  // namespace
 
-Json summary_json(const RowColumn<ExtractSummary>& column, const ExtractSummary& summary) {
+Json summary_json(const Column<ExtractSummary>& column, const ExtractSummary& summary) {
   const std::string text = summary_text(column, summary);
   if (text.empty()) return nullptr;
   return std::holds_alternative<double>(column.value(summary)) ? Json(std::stod(text)) : Json(text);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "extract/extract_summary.h"
-#include "report/row_column.h"
+#include "report/column.h"
 
 namespace rheocyte {
 
@@ -20,6 +20,6 @@ std::vector<std::string> recommended_lines(const ExtractSummary&);
 std::string recommended_in_short(const ExtractSummary&);
 
 /// What a column of the summary says: a number, a text or null.
-nlohmann::ordered_json summary_json(const RowColumn<ExtractSummary>& column, const ExtractSummary&);
+nlohmann::ordered_json summary_json(const Column<ExtractSummary>& column, const ExtractSummary&);
 
 }  // namespace rheocyte

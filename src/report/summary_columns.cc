@@ -12,9 +12,12 @@ namespace rheocyte {
 namespace {
 
 using S = ExtractSummary;
-using Columns = RowColumns<ExtractSummary>;
-
-constexpr int digits_of_counts = 15;  // all of them
+struct Entry {
+  std::string name;
+  std::function<CellValue(const S&)> value;
+  int digits = 0;
+};
+using Entries = std::vector<Entry>;
 
 std::string all_of(const std::vector<std::string>& sentences) {
   std::string text;
@@ -36,8 +39,8 @@ std::string beside_axis_text(const BesideAxis& b) {
   return turn + (turn.empty() || centring.empty() ? "" : " ") + centring;
 }
 
-Columns counts() {
-  Columns columns{{"events", [](const S& s) { return double(s.events); }, digits_of_counts}};
+Entries counts() {
+  Entries columns{{"events", [](const S& s) { return double(s.events); }, digits_of_counts}};
   for (std::size_t k = 0; k < states_by_deformation().size(); ++k) {
     std::string name(states_by_deformation()[k]);
     std::ranges::replace(name, ' ', '_');
@@ -48,7 +51,7 @@ Columns counts() {
   return columns;
 }
 
-Columns of_modulus() {
+Entries of_modulus() {
   return {{"with_modulus_percent",
            [](const S& s) { return 100 * double(s.with_modulus()) / double(std::max<std::size_t>(s.events, 1)); }},
           {"young_modulus_median_kPa", [](const S& s) { return s.modulus_kPa.median; }},
@@ -65,7 +68,7 @@ std::function<CellValue(const S&)> of_recommendation(auto value) {
   return [value](const S& s) -> CellValue { return std::invoke(value, recommendation(s.shapes)); };
 }
 
-Columns of_recommended_modulus() {
+Entries of_recommended_modulus() {
   using R = Recommendation;
   constexpr std::array ways{"none", "deformation", "elongated"};
   return {
@@ -81,7 +84,7 @@ Columns of_recommended_modulus() {
        [](const S& s) -> CellValue { return recommendation_text(recommendation(s.shapes), s.shapes); }}};
 }
 
-Columns of_elongation() {
+Entries of_elongation() {
   using V = ShapeVerdict;
   return {
       {"young_modulus_elongated_median_kPa", of_shapes([](const V& v) { return v.elongated_kPa.median; })},
@@ -106,7 +109,7 @@ Columns of_elongation() {
       {"mode_5_beyond_solids", of_shapes([](const V& v) { return v.cortex_mode_5.value; })}};
 }
 
-Columns of_verdict() {
+Entries of_verdict() {
   using V = ShapeVerdict;
   constexpr std::array fits{"unknown", "model", "other-table", "doubtful", "elongated", "rounder"};
   return {{"shapes", of_shapes([=](const V& v) { return fits.at(static_cast<std::size_t>(v.fit())); })},
@@ -126,7 +129,7 @@ Columns of_verdict() {
           {"mode_3_change", of_shapes([](const V& v) { return v.asymmetry_trend.change; })}};
 }
 
-Columns of_places() {
+Entries of_places() {
   using B = BesideAxis;
   return {{"pos_y_rms_um", beside_axis(&B::spread_um)},
           {"sine_mode_2_per_um", beside_axis([](const B& b) { return b.sine_slope.value; })},
@@ -142,7 +145,7 @@ Columns of_places() {
           {"beside_axis_text", beside_axis(beside_axis_text)}};
 }
 
-Columns of_settings() {
+Entries of_settings() {
   return {{"table", &S::table},
           {"medium", &S::medium},
           {"viscosity_model", &S::viscosity_model},
@@ -165,18 +168,17 @@ Columns of_settings() {
 
 }  // namespace
 
-std::string summary_text(const RowColumn<ExtractSummary>& column, const ExtractSummary& summary) {
+std::string summary_text(const Column<ExtractSummary>& column, const ExtractSummary& summary) {
   const CellValue value = column.value(summary);
-  const auto* number = std::get_if<double>(&value);
-  return number && !std::isfinite(*number) ? "" : cell_text(value, column.digits);
+  return has_value(value) ? cell_text(column, value) : "";
 }
 
-const Columns& summary_columns() {
-  static const Columns columns = [] {
-    Columns all;
+const Columns<S>& summary_columns() {
+  static const Columns<S> columns = [] {
+    Columns<S> all;
     for (const auto& part :
          {counts(), of_recommended_modulus(), of_modulus(), of_elongation(), of_verdict(), of_places(), of_settings()})
-      all.insert(all.end(), part.begin(), part.end());
+      for (const Entry& entry : part) all.push_back({{.name = entry.name, .digits = entry.digits}, entry.value});
     return all;
   }();
   return columns;

@@ -10,6 +10,7 @@
 #include "extract/shape_verdict.h"
 #include "numeric/quantile.h"
 #include "report/event_table.h"
+#include "report/rows_text.h"
 #include "store/build_info.h"
 
 namespace rheocyte {
@@ -262,46 +263,42 @@ CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
   return report;
 }
 
-const RowColumns<CourseRow>& course_columns() {
+const Columns<CourseRow>& course_columns() {
   using R = CourseRow;
-  const auto credible = [](Credible R::*of, double Credible::*end) {
-    return [=](const R& row) { return row.*of.*end; };
-  };
-  const auto modulus = [&](double Credible::*end) { return credible(&R::young_modulus_kPa, end); };
-  const auto viscosity = [&](double Credible::*end) { return credible(&R::viscosity_Pas, end); };
-  static const RowColumns<R> columns{{"recording", &R::recording},
-                                     {"cell", &R::cell, 15},
-                                     {"events", &R::events},
-                                     {"first_place_um", &R::first_place_um, 4},
-                                     {"last_place_um", &R::last_place_um, 4},
-                                     {"radius_um", &R::radius_um, 4},
-                                     {"young_modulus_kPa", modulus(&Credible::value), 5},
-                                     {"young_modulus_low_kPa", modulus(&Credible::low), 5},
-                                     {"young_modulus_high_kPa", modulus(&Credible::high), 5},
-                                     {"viscosity_Pas", viscosity(&Credible::value), 5},
-                                     {"viscosity_low_Pas", viscosity(&Credible::low), 5},
-                                     {"viscosity_high_Pas", viscosity(&Credible::high), 5},
-                                     {"chi_squared", &R::chi_squared, 3},
-                                     {"section_factor", &R::section_factor, 4},
-                                     {"section_error", &R::section_error, 2},
-                                     {"mode_2_excess", [](const R& row) { return row.drawn_out.mode_2_excess; }, 3},
-                                     {"tension_factor", [](const R& row) { return row.drawn_out.factor; }, 4},
-                                     {"status", &R::status},
-                                     {"event_numbers", &R::event_numbers}};
+  static const Columns<R> columns = [] {
+    ColumnList<R> list;
+    const auto add = [&list](const char* name, auto value, int digits) {
+      list.add({.name = name, .digits = digits}, value);
+    };
+    const auto add_credible = [&list](ColumnDescription about, Credible R::*of) {
+      about.digits = 5;
+      const auto end = [of](double Credible::*which) { return [=](const R& row) { return row.*of.*which; }; };
+      list.add_with_interval(about, end(&Credible::value), end(&Credible::low), end(&Credible::high));
+    };
+    list.add({"recording"}, &R::recording);
+    list.add_count("cell", &R::cell);
+    list.add_count("events", &R::events);
+    add("first_place_um", &R::first_place_um, 4);
+    add("last_place_um", &R::last_place_um, 4);
+    add("radius_um", &R::radius_um, 4);
+    add_credible({.name = "young_modulus_kPa", .unit = "kPa"}, &R::young_modulus_kPa);
+    add_credible({.name = "viscosity_Pas", .unit = "Pa s"}, &R::viscosity_Pas);
+    add("chi_squared", &R::chi_squared, 3);
+    add("section_factor", &R::section_factor, 4);
+    add("section_error", &R::section_error, 2);
+    add(
+        "mode_2_excess", [](const R& row) { return row.drawn_out.mode_2_excess; }, 3);
+    add(
+        "tension_factor", [](const R& row) { return row.drawn_out.factor; }, 4);
+    list.add({"status"}, &R::status);
+    list.add({"event_numbers"}, &R::event_numbers);
+    return std::move(list).columns();
+  }();
   return columns;
 }
 
 std::string course_text(const CourseReport& report) {
-  const auto& columns = course_columns();
-  const auto line = [&](const auto& cell) {
-    std::string text;
-    for (const auto& column : columns) text.append(text.empty() ? "" : "\t").append(cell(column));
-    return text + "\n";
-  };
-  std::string text = line([](const auto& column) { return column.name; });
-  for (const CourseRow& row : report.rows)
-    text += line([&](const auto& column) { return cell_text(column.value(row), column.digits); });
-  return text + commented(report.remarks);
+  return rows_text(course_columns(), report.rows) + commented(report.remarks);
 }
 
 }  // namespace rheocyte

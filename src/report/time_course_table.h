@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "extract/course_events.h"
-#include "report/row_column.h"
+#include "report/column.h"
 #include "shelf/square_section.h"
 
 namespace rheocyte {
@@ -28,7 +28,7 @@ struct CourseRow {
 };
 
 /// A new column is declared in report/time_course_table.cc.
-const RowColumns<CourseRow>& course_columns();
+const Columns<CourseRow>& course_columns();
 
 struct CourseReport {
   std::vector<CourseRow> rows;

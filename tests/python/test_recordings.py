@@ -376,7 +376,7 @@ def test_the_time_course_is_that_of_the_command(program, on_their_way):
     numbers = frame.select_dtypes("number")
     pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-2)  # two digits, and more
     assert len(frame) == 60 and set(frame["events"]) == {2}
-    held = (frame["viscosity_low_Pas"] <= 5) & (frame["viscosity_high_Pas"] >= 5)
+    held = (frame["viscosity_Pas_low"] <= 5) & (frame["viscosity_Pas_high"] >= 5)
     assert held.mean() > 0.7  # of 90 %; the standard deviation is 4 %
     assert frame.attrs["population"][1].startswith("population: Young's modulus")
 
