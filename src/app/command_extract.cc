@@ -24,7 +24,7 @@ namespace rheocyte {
 namespace {
 
 std::string why_none(const ExtractSummary& s) {
-  const auto all_are = [&](ModulusState state) { return s.counts[static_cast<std::size_t>(state)] == s.events; };
+  const auto all_are = [&](ModulusState state) { return s.counts[static_cast<std::size_t>(state)] == s.recorded; };
   if (all_are(ModulusState::no_data)) return "no event has area, deformation and viscosity";
   if (all_are(ModulusState::cut)) return "all outlines touch the edge of the picture";
   return fmt::format("all events lie outside the table {}{}", s.table, s.gates.empty() ? "" : " or the gates");

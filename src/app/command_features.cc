@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "app/extract_options.h"
 #include "app/recording_batch.h"
-#include "events/plausibility.h"
+#include "events/recording_facts.h"
 #include "events/recording_settings.h"
 #include "report/features_recording.h"
 #include "store/standard_output.h"

@@ -51,7 +51,7 @@ int run(const TimeCourseOptions& options) {
     const double contraction_um = contraction_of(options, i, tasks.size());
     const std::string name = one_line(tasks[i].recording.string(), 200);
     const CourseEvents events = read(tasks[i], options);
-    for (const std::string& warning : events.warnings) tell(fmt::format("{}: {}", name, warning));
+    for (const std::string& warning : remarks(events)) tell(fmt::format("{}: {}", name, warning));
     courses.add(events, name, contraction_um);
   }
   const CourseReport report = courses.report(go_on_unless_stopped);

@@ -75,15 +75,10 @@ Medium chosen_medium(const MeasuringOptions& options, const Recording& recording
   refuse_path(recording.file(), sentence);
 }
 
-std::string outside(const ExtractSettings& settings) {
-  const auto range = settings.buffer->measured();
-  return fmt::format("outside {} to {} degC, for which the viscosity model {} was measured.", range.lowest,
-                     range.highest, settings.model_text());
-}
-
 void warn_about_temperature(ExtractSettings& settings) {
   if (settings.viscosity_varies() || settings.buffer->measured().contains(settings.temperature_C)) return;
-  settings.warnings.push_back(fmt::format("{} degC is {}", settings.temperature_C, outside(settings)));
+  settings.warnings.push_back(fmt::format("{} degC is outside {}, for which the viscosity model {} was measured.",
+                                          settings.temperature_C, settings.range_text(), settings.model_text()));
 }
 
 // Virtual recordings tell the viscosity itself.
@@ -126,9 +121,9 @@ std::size_t ExtractSettings::viscosities(const Recording& recording, std::size_t
   return static_cast<std::size_t>(std::ranges::count_if(temperatures, is_outside));
 }
 
-std::string ExtractSettings::outside_temperature_text(std::size_t events) const {
-  return fmt::format("{} {} {}", events, events == 1 ? "event has a temperature" : "events have temperatures",
-                     outside(*this));
+std::string ExtractSettings::range_text() const {
+  const auto range = buffer->measured();
+  return fmt::format("{} to {} degC", range.lowest, range.highest);
 }
 
 std::vector<std::string> ExtractSettings::lines() const {

@@ -40,14 +40,12 @@ struct ExtractSettings {
   /// temperatures lie outside those for which the model was measured; there it extrapolates. UserError if the data are
   /// damaged.
   std::size_t viscosities(const Recording& recording, std::size_t first, std::span<double> mPas) const;
-  /// The warning for so many events.
-  std::string outside_temperature_text(std::size_t events) const;
-
   /// What the moduli rest on, one line each: channel width, flow rate, size of a pixel if it counts, viscosity.
   std::vector<std::string> lines() const;
   std::string medium_text() const;       ///< "0.49% MC-PBS", or "" if the viscosity was given
   std::string model_text() const;        ///< "buyukurganci-2022", or "given"
   std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
+  std::string range_text() const;        ///< for which the viscosity model was measured; there is a buffer (asserted)
 };
 
 /// What stored numbers can be; others have a unit that was mistaken.

@@ -101,36 +101,4 @@ std::vector<std::string> contradictions(const Recording& recording, double rate_
   return sentences;
 }
 
-std::string cut_text(std::size_t events) {
-  return events == 1
-             ? "1 event is left out, because its outline touches the edge of the picture: the cell is cut off."
-             : fmt::format(
-                   "{} events are left out, because their outlines touch the edge of the picture: the cells are "
-                   "cut off.",
-                   events);
-}
-
-std::string inertia_text(std::size_t events, double greatest) {
-  return fmt::format(
-      "{} events have Reynolds numbers above {:g}, up to {:.2g}: the tables hold no inertia of the liquid, which "
-      "changes "
-      "moduli by about {:.1f} % for each unit up to 8 and by an unknown amount beyond; are flow rate and viscosity "
-      "right?",
-      events, max_reynolds_number, greatest, 100 * modulus_per_reynolds);
-}
-
-std::string inertia_text(const ChannelFlow& flow, std::span<const double> viscosity_mPas) {
-  ChannelFlow of_event = flow;
-  std::size_t events = 0;
-  double greatest = 0;
-  for (const double viscosity : viscosity_mPas) {
-    of_event.viscosity_mPas = viscosity;
-    const double reynolds = reynolds_number(buffer_density_kg_per_m3, of_event);
-    if (!(reynolds > max_reynolds_number)) continue;
-    ++events;
-    greatest = std::max(greatest, reynolds);
-  }
-  return events == 0 ? std::string() : inertia_text(events, greatest);
-}
-
 }  // namespace rheocyte

@@ -47,12 +47,4 @@ void check_viscosity(double mPas, const std::string& name);
 /// `rate_ul_s` and `pixel_size_um` are those that are used; 0 if they need no check.
 std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um);
 
-/// The sentence about so many events whose outlines the edge of the picture cuts.
-std::string cut_text(std::size_t events);
-
-/// The sentence about events whose Reynolds number is too great; `greatest` of them all.
-std::string inertia_text(std::size_t events, double greatest);
-/// The same of events with these viscosities in a flow, whose own does not count; empty if there are none.
-std::string inertia_text(const ChannelFlow& flow, std::span<const double> viscosity_mPas);
-
 }  // namespace rheocyte

@@ -32,7 +32,7 @@ MeasuredCell cell_of(const PopulationEvents& events, std::size_t i) {
   cell.shape(int(ShapeFeature::moment_ratio)) = std::pow(at(SeenMeasure::inertia_ratio), -2);
   for (int k = 0; k < last_fitted_mode - 1; ++k)
     cell.shape(mode_2 + k) = events.seen[std::size_t(int(SeenMeasure::mode_2) + k)][i];
-  cell.flow = events.flow;
+  cell.flow = events.flow();
   cell.flow.viscosity_mPas = at(SeenMeasure::viscosity_mPas);
   return cell;
 }
@@ -248,7 +248,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   CombinedReport& combined = r.combined.emplace();
   combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
   combined.wall_stress_Pa = r.wall_stress_Pa();
-  const SeenPopulation seen{.sight = {events.flow, combined.section, table_.section_error_factor()},
+  const SeenPopulation seen{.sight = {events.flow(), combined.section, table_.section_error_factor()},
                             .pixel_size_um = events.pixel_size_um,
                             .log_area = log_area_gate(events.least_area_um2, events.greatest_area_um2),
                             .outline_noise = {.deviation = outline_noise_um_}};
@@ -266,7 +266,8 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   combined.strangers = cells.size() - r.beyond.all() - fit.events;
   r.fitted_events = fit.events;
   if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
-  r.failure = why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow).length);
+  r.failure =
+      why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow()).length);
   if (!r.failure.empty()) return;
   tell(combined.found, combined, r);
   tell_bounds(fit, r);

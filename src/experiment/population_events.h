@@ -6,10 +6,9 @@
 #include <tuple>
 #include <vector>
 
-#include "case/channel_flow.h"
 #include "events/options.h"
+#include "events/recording_facts.h"
 #include "infer/solid_maps.h"
-#include "numeric/no_value.h"
 #include "shape/outline_shape.h"
 #include "store/progress.h"
 
@@ -30,24 +29,18 @@ enum class SeenMeasure {
 };
 inline constexpr int seen_measures = int(SeenMeasure::viscosity_mPas) + 1;
 
-struct PopulationEvents {
-  ChannelFlow flow;  ///< its viscosity does not count
-  double pixel_size_um = 0;
+struct PopulationEvents : RecordingFacts {
   bool has_outlines = false, has_inertia_ratios = true;
-  int direction = 0;         ///< in which the cells move (direction_of_cells.h)
-  std::size_t recorded = 0;  ///< events of the recording, also those that are left out
-  std::size_t gated = 0, without_numbers = 0;
+  std::size_t without_numbers = 0;
   /// Limits of the gates on area and deformation; those that are not part of the model in words.
   double least_area_um2 = 0, greatest_area_um2 = 0, least_deformation = 0, greatest_deformation = 0;
-  std::string gates, gates_beside_the_model;
+  std::string gates_beside_the_model;
   std::vector<double> number;                                ///< of each event in the recording, from 1 on
   std::array<std::vector<double>, seen_measures> seen = {};  ///< 0: those that the recording does not have
-  std::vector<std::string> settings, warnings;
-  std::string made_of;              ///< of virtual cells (made_of_key)
-  std::string medium;               ///< empty if the viscosity was given
-  double temperature_C = no_value;  ///< of all events, or their median; NaN if the viscosity was given
+  std::vector<std::string> warnings;                         ///< with the remarks on the recording
 
   std::size_t events() const { return number.size(); }
+  const ChannelFlow& flow() const { return conditions.flow; }  ///< its viscosity does not count
   /// Of at least one event; what is not measured is 0.
   ShapeVector median_shape() const;
   const std::vector<double>& of(SeenMeasure m) const { return seen[std::size_t(m)]; }
@@ -55,11 +48,11 @@ struct PopulationEvents {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.flow, s.pixel_size_um, s.has_outlines, s.has_inertia_ratios, s.direction, s.recorded, s.gated,
-                    s.without_numbers, s.least_area_um2, s.greatest_area_um2, s.least_deformation,
-                    s.greatest_deformation, s.gates, s.gates_beside_the_model, s.number, s.seen[0], s.seen[1],
-                    s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.settings,
-                    s.warnings, s.made_of, s.medium, s.temperature_C);
+    return std::tuple_cat(
+        RecordingFacts::fields(s),
+        std::tie(s.has_outlines, s.has_inertia_ratios, s.without_numbers, s.least_area_um2, s.greatest_area_um2,
+                 s.least_deformation, s.greatest_deformation, s.gates_beside_the_model, s.number, s.seen[0], s.seen[1],
+                 s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.warnings));
   }
 };
 

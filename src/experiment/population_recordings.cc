@@ -157,7 +157,7 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.recording = conditions_[condition].recordings[session];
   r.condition = condition;
   r.session = session;
-  r.flow = events.flow;
+  r.flow = events.flow();
   r.pixel_size_um = events.pixel_size_um;
   r.medium = events.medium;
   r.temperature_C = events.temperature_C;
@@ -171,8 +171,6 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
   r.warnings = events.warnings;
-  if (const auto inertia = inertia_text(events.flow, events.of(SeenMeasure::viscosity_mPas)); !inertia.empty())
-    r.warnings.push_back(inertia);
   if (!events.gates_beside_the_model.empty() && events.gated > 0)
     r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
                                      events.gates_beside_the_model));

@@ -255,26 +255,26 @@ PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table, do
 }
 
 const ElongatedLiquid& PopulationMaps::liquid(const PopulationEvents& events) const {
-  return given_liquid_ ? *given_liquid_ : *tables_->elongated(events.flow.exponent);
+  return given_liquid_ ? *given_liquid_ : *tables_->elongated(events.flow().exponent);
 }
 
 PopulationMaps::Key PopulationMaps::key_of(const PopulationEvents& events) {
-  return {events.flow.width_um, events.flow.rate_ul_s, events.flow.exponent, events.pixel_size_um};
+  return {events.flow().width_um, events.flow().rate_ul_s, events.flow().exponent, events.pixel_size_um};
 }
 
 PopulationMaps::Channel& PopulationMaps::channel(const PopulationEvents& events) {
   Channel& channel = channels_[key_of(events)];
   if (!channel.solids)
-    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow,
+    channel.solids = std::make_unique<const SolidMaps>(liquid(events), events.flow(),
                                                        SolidImages{events.pixel_size_um, outline_errors(events)}, by_);
   return channel;
 }
 
 std::shared_ptr<const OutlineErrors> PopulationMaps::outline_errors(const PopulationEvents& events) {
   if (outline_noise_um_ == 0) return nullptr;
-  auto& errors = outline_errors_[{table(events), events.flow.width_um, events.pixel_size_um}];
+  auto& errors = outline_errors_[{table(events), events.flow().width_um, events.pixel_size_um}];
   if (!errors)
-    errors = std::make_shared<const OutlineErrors>(liquid(events).solids().table(), events.flow.width_um,
+    errors = std::make_shared<const OutlineErrors>(liquid(events).solids().table(), events.flow().width_um,
                                                    events.pixel_size_um, OutlineNoise{.deviation = outline_noise_um_});
   return errors;
 }

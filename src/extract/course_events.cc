@@ -11,9 +11,7 @@
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "events/event_pass.h"
-#include "events/outlined_events.h"
-#include "events/plausibility.h"
-#include "measurement/metadata.h"
+#include "events/event_reader.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
 
@@ -35,11 +33,10 @@ const Recording& checked(const Recording& recording) {
 class CourseReader {
  public:
   CourseReader(const Recording& recording, const MeasuringOptions& options)
-      : recording_(checked(recording)), events_(recording, options, "the third mode of each outline is computed") {
+      : recording_(checked(recording)),
+        events_(recording, options,
+                {.outlines = OutlineUse::required, .outlines_for = "the third mode of each outline is computed"}) {
     result_.has_time = recording.has_scalar("time");
-    result_.made_of = recording.metadata().text(made_of_key).value_or("");
-    result_.settings = events_.settings().lines();
-    result_.warnings = events_.settings().warnings;
   }
 
   void take(std::size_t first, std::size_t count) {
@@ -51,7 +48,7 @@ class CourseReader {
       if (!events_.is_inside(i) || !std::isfinite(x[i]) || !std::isfinite(viscosity[i])) continue;
       CourseEvent event{double(first + i + 1), x[i], y[i], time[i]};
       if (!measure(events_.shape(first + i), event)) {
-        cut_ += events_.is_cut(first + i);
+        static_cast<void>(events_.is_cut(first + i));
         continue;
       }
       result_.events.push_back(event);
@@ -60,10 +57,10 @@ class CourseReader {
   }
 
   CourseEvents result() {
-    if (cut_ > 0) result_.warnings.push_back(cut_text(cut_));
+    static_cast<RecordingFacts&>(result_) = events_.facts();
     if (result_.events.empty())
       refuse_path(recording_.file(), "has no event with an outline, a place and a viscosity.");
-    result_.flow = events_.settings().conditions.flow;
+    result_.flow = events_.conditions().flow;
     result_.flow.viscosity_mPas = median_of(viscosities_);
     return std::move(result_);
   }
@@ -87,9 +84,8 @@ class CourseReader {
   }
 
   const Recording& recording_;
-  OutlinedEvents events_;
+  EventReader events_;
   std::vector<double> viscosities_;
-  std::size_t cut_ = 0;
   CourseEvents result_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "case/channel_flow.h"
 #include "events/options.h"
+#include "events/recording_facts.h"
 #include "infer/square_course.h"
 #include "infer/time_course.h"
 #include "store/progress.h"
@@ -21,17 +22,15 @@ struct CourseEvent {
 };
 
 /// Of one recording.
-struct CourseEvents {
+struct CourseEvents : RecordingFacts {
   std::vector<CourseEvent> events;
   ChannelFlow flow;  ///< with the median viscosity of its events
   bool has_time = false;
-  std::string made_of;  ///< of a virtual recording: what it says of its cells; else empty
-  std::vector<std::string> settings, warnings;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.flow, s.has_time, s.made_of, s.settings, s.warnings);
+    return std::tuple_cat(RecordingFacts::fields(s), std::tie(s.events, s.flow, s.has_time));
   }
 };
 

@@ -8,14 +8,8 @@
 
 namespace rheocyte {
 
-RecordingLabels labels_of(const Metadata& metadata) {
-  const auto text = [&](const char* key) { return metadata.text(key).value_or(""); };
-  return {text("experiment:sample"), text("experiment:date"), text("experiment:time"), text("experiment:run index"),
-          text("setup:chip identifier")};
-}
-
 std::string in_one_line(const ExtractSummary& s) {
-  std::string text = fmt::format("{} of {} events", s.with_modulus(), s.events), parts;
+  std::string text = fmt::format("{} of {} events", s.with_modulus(), s.recorded), parts;
   for (std::size_t k = 0; k < s.counts.size(); ++k)
     if (const auto state = static_cast<ModulusState>(k); s.counts[k] > 0 && has_modulus(state))
       parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", s.counts[k], name_of(state));

@@ -6,45 +6,29 @@
 #include <tuple>
 #include <vector>
 
-#include "events/extract_settings.h"
+#include "events/recording_facts.h"
 #include "extract/distribution.h"
 #include "extract/shape_verdict.h"
 #include "infer/modulus_state.h"
 
 namespace rheocyte {
 
-/// Of the metadata, to tell recordings apart; empty where absent.
-struct RecordingLabels {
-  std::string sample, date, time, run_index, chip;
-
-  /// For store/bytes.h.
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.sample, s.date, s.time, s.run_index, s.chip);
-  }
-};
-RecordingLabels labels_of(const Metadata& metadata);
-
-struct ExtractSummary {
-  RecordingLabels labels;
-  std::size_t events = 0;
+struct ExtractSummary : RecordingFacts {
   std::array<std::size_t, names_of_modulus_states.size()> counts{};  ///< by ModulusState
   Distribution modulus_kPa;
   double median_standard_error_kPa = 0;  ///< of the events with a modulus; NaN if unknown
   double mean_viscosity_mPas = 0;
   ShapeVerdict shapes;
-  std::string table, medium, viscosity_model, temperature, area_from, deformation_from;
-  std::string corrected;  ///< for the pixels: "area and deformation", "deformation", "nothing"
-  std::string gates;      ///< limits of the events that count; empty: all
-  MeasuringConditions conditions;
-  std::vector<std::string> warnings;
+  std::string table;
+  std::string corrected;              ///< for the pixels: "area and deformation", "deformation", "nothing"
+  std::vector<std::string> warnings;  ///< with the remarks on the recording
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.labels, s.events, s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas,
-                    s.shapes, s.table, s.medium, s.viscosity_model, s.temperature, s.area_from, s.deformation_from,
-                    s.corrected, s.gates, s.conditions, s.warnings);
+    return std::tuple_cat(RecordingFacts::fields(s),
+                          std::tie(s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas,
+                                   s.shapes, s.table, s.corrected, s.warnings));
   }
 
   /// Events with a modulus, whatever is said about it.

@@ -41,26 +41,21 @@ EventShapes::Tables shape_tables(const ModulusTables& tables, double flow_expone
 }  // namespace
 
 Extraction::Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables)
-    : recording_(recording),
-      tables_(tables),
-      settings_(extract_settings(options.measuring, pixel_use(options), recording)),
-      table_(tables.used(settings_.conditions.flow.exponent)),
-      other_table_(tables.other(settings_.conditions.flow.exponent)),
+    : tables_(tables),
+      events_(recording, options.measuring, {.pixels = pixel_use(options)}),
+      table_(tables.used(conditions().flow.exponent)),
+      other_table_(tables.other(conditions().flow.exponent)),
       are_square_(tables.are_square()),
-      shapes_(recording, settings_.pixel_size_um),
-      event_shapes_(recording, settings_.conditions,
-                    EventShapes::are_measured(recording) ? shape_tables(tables, settings_.conditions.flow.exponent)
+      event_shapes_(recording, conditions(),
+                    EventShapes::are_measured(recording) ? shape_tables(tables, conditions().flow.exponent)
                                                          : EventShapes::Tables{},
-                    !options.no_asymmetry),
-      gates_(options.measuring.gates),
-      features_(recording, shapes_) {
-  gates_.check(features_);
+                    !options.no_asymmetry) {
   moduli_.reserve(recording.events());
   if (table_.is_rheocyte_table()) standard_errors_.reserve(recording.events());
 }
 
 void Extraction::Columns::resize(std::size_t count, std::size_t compared) {
-  for (auto* const column : {&area, &deformation, &viscosity, &modulus, &standard_error}) column->resize(count);
+  for (auto* const column : {&area, &deformation, &modulus, &standard_error}) column->resize(count);
   states.resize(count);
   other_modulus.resize(compared);
   other_states.resize(compared);
@@ -69,7 +64,7 @@ void Extraction::Columns::resize(std::size_t count, std::size_t compared) {
 std::size_t Extraction::block() const {
   const auto stored = [](const std::string& source) { return source != "mask" && source != "contour"; };
   const bool by_outlines =
-      event_shapes_.has_asymmetry() || !stored(shapes_.area_from()) || !stored(shapes_.deformation_from());
+      event_shapes_.has_asymmetry() || !stored(shapes().area_from()) || !stored(shapes().deformation_from());
   return by_outlines ? block_of_outlines : block_of_scalars;
 }
 
@@ -77,27 +72,27 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   Columns& c = columns_;
   const std::size_t compared = other_table_ ? std::min(count, most_compared) : 0;
   c.resize(count, compared);
-  shapes_.read(first, c.area, c.deformation);
-  outside_temperature_ += settings_.viscosities(recording_, first, c.viscosity);
-  const MeasuredEvents events{c.area, c.deformation, c.viscosity};
+  events_.read(first, count);
+  events_.stored_shapes().read(first, c.area, c.deformation);
+  const auto viscosity = events_.viscosity_mPas();
+  const MeasuredEvents events{c.area, c.deformation, viscosity};
   if (other_table_) {
     const auto of_some = [&](std::span<const double> column) { return column.first(compared); };
     // Its standard errors are overwritten by those that count.
-    other_table_->estimate(settings_.conditions, {of_some(c.area), of_some(c.deformation), of_some(c.viscosity)},
+    other_table_->estimate(conditions(), {of_some(c.area), of_some(c.deformation), of_some(viscosity)},
                            {c.other_modulus, std::span(c.standard_error).first(compared), c.other_states});
   }
-  table().estimate(settings_.conditions, events, {c.modulus, c.standard_error, c.states});
+  table().estimate(conditions(), events, {c.modulus, c.standard_error, c.states});
   const Moduli moduli{c.modulus, c.standard_error, c.states};
   add_inertia_error(moduli);
   if (table().is_rheocyte_table()) mark_unresolved(moduli);
   compute_shapes(first, events);
-  for (std::size_t i = 0; i < c.shapes.is_cut.size(); ++i)
-    if (c.shapes.is_cut[i]) leave_out(i, ModulusState::cut);
-  if (!gates_.empty()) apply_gates(first);
+  leave_out_cut();
+  if (!events_.gates().empty()) apply_gates();
   collect();
   const auto& s = c.shapes;
-  return {c.area,   c.deformation,        c.viscosity, c.modulus, c.standard_error, c.states, s.excess,
-          s.mode_3, s.elongation.block(), s.outlines,  s.tilt};
+  return {c.area,   c.deformation,        viscosity,  c.modulus, c.standard_error, c.states, s.excess,
+          s.mode_3, s.elongation.block(), s.outlines, s.tilt};
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
@@ -136,24 +131,17 @@ void add_common_errors(ExtractSummary& s) {
 
 ExtractSummary Extraction::summary() {
   ExtractSummary s = summary_;
-  s.labels = labels_of(recording_.metadata());
-  s.events = recording_.events();
+  events_.turn(event_shapes_.direction());
+  static_cast<RecordingFacts&>(s) = events_.facts();
   s.modulus_kPa = distribution_of(moduli_);
   s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
   s.median_standard_error_kPa = median_of(standard_errors_);
   s.table = table().origin().identifier;
-  s.gates = gates_.description();
-  s.corrected = corrected_for_pixels(settings_.conditions, table());
-  s.medium = settings_.medium_text();
-  s.viscosity_model = settings_.model_text();
-  s.temperature = settings_.temperature_text();
-  s.area_from = shapes_.area_from();
-  s.deformation_from = shapes_.deformation_from();
-  s.conditions = settings_.conditions;
-  s.shapes = shape_tally_.verdict(settings_.pixel_size_um);
+  s.corrected = corrected_for_pixels(conditions(), table());
+  s.shapes = shape_tally_.verdict(s.pixel_size_um);
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
-  s.shapes.direction = event_shapes_.direction();
-  s.shapes.beside_axis = shape_tally_.beside_axis(s.shapes.direction, settings_.conditions.flow);
+  s.shapes.direction = s.direction;
+  s.shapes.beside_axis = shape_tally_.beside_axis(s.direction, conditions().flow);
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
   s.shapes.made_of = made_of();
@@ -162,14 +150,11 @@ ExtractSummary Extraction::summary() {
   add_common_errors(s);
   add_soft_ends(s);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
-    s.shapes.other = fitting_table(tables_, settings_.conditions, shape_tally_.judged());
-  s.warnings = recording_.remarks();
-  s.warnings.insert(s.warnings.end(), settings_.warnings.begin(), settings_.warnings.end());
-  if (outside_temperature_ > 0) s.warnings.push_back(settings_.outside_temperature_text(outside_temperature_));
-  if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
+    s.shapes.other = fitting_table(tables_, conditions(), shape_tally_.judged());
+  s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
   if (other_table_) s.warnings.push_back(comparison());
-  if (recording_.has_scalar("emodulus"))
+  if (events_.recording().has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
 }
@@ -177,12 +162,11 @@ ExtractSummary Extraction::summary() {
 // Where moduli end in the tables, for a bound of a median beyond them.
 void Extraction::add_soft_ends(ExtractSummary& s) const {
   const SofterCells softer = shape_tally_.softer();
-  const MeasuringConditions& conditions = settings_.conditions;
   s.shapes.by_deformation.soft_end_kPa =
-      softest_modulus_kPa(table(), conditions, softer.area_um2, s.mean_viscosity_mPas);
+      softest_modulus_kPa(table(), conditions(), softer.area_um2, s.mean_viscosity_mPas);
   if (const ElongatedLiquid* const elongated = event_shapes_.elongated_table())
     s.shapes.by_elongation.soft_end_kPa =
-        softest_modulus_kPa(*elongated, conditions, softer.elongated, s.mean_viscosity_mPas);
+        softest_modulus_kPa(*elongated, conditions(), softer.elongated, s.mean_viscosity_mPas);
 }
 
 namespace {
@@ -202,10 +186,10 @@ bool has_cells(const ElongatedLiquid* table, const std::string& cells, Elongatio
 
 // What a virtual recording says of its cells, and which table has such ones.
 std::string Extraction::made_of() const {
-  const auto cells = recording_.metadata().text(made_of_key);
+  const auto cells = events_.recording().metadata().text(made_of_key);
   if (!cells) return {};
-  const double exponent = settings_.conditions.flow.exponent;
-  const auto elongation = elongation_of_cells(recording_.metadata());
+  const double exponent = conditions().flow.exponent;
+  const auto elongation = elongation_of_cells(events_.recording().metadata());
   const std::string made = fmt::format("made by rheocyte synth from {}{}", one_line(*cells, 100), words_of(elongation)),
                     used = table().origin().identifier;
   if (elongation && has_cells(tables_.elongated(exponent), *cells, *elongation))
@@ -224,7 +208,7 @@ std::string Extraction::beyond_the_square() const {
   constexpr double worth_a_word = 0.01;
   const auto count = [this](ModulusState state) { return summary_.counts[static_cast<std::size_t>(state)]; };
   const auto beyond = static_cast<double>(count(ModulusState::unstable) + count(ModulusState::too_soft));
-  const double fraction = beyond / static_cast<double>(recording_.events());
+  const double fraction = beyond / static_cast<double>(events_.facts().recorded);
   if (!are_square_ || fraction < worth_a_word) return {};
   return fmt::format(
       "{:.0f} % of the events are deformed beyond the smooth shapes of {}; the tables of the tube reach farther "
@@ -235,11 +219,11 @@ std::string Extraction::beyond_the_square() const {
 std::vector<std::string> Extraction::lines() const {
   std::vector<std::string> lines{
       fmt::format("table: {}", table().origin().description()),
-      fmt::format("area from {}, deformation from {}", shapes_.area_from(), shapes_.deformation_from()),
-      fmt::format("corrected for pixels: {}", corrected_for_pixels(settings_.conditions, table()))};
-  const auto settings = settings_.lines();
-  lines.insert(lines.end(), settings.begin(), settings.end());
-  if (!gates_.empty()) lines.push_back("only events with " + gates_.description());
+      fmt::format("area from {}, deformation from {}", shapes().area_from(), shapes().deformation_from()),
+      fmt::format("corrected for pixels: {}", corrected_for_pixels(conditions(), table()))};
+  const RecordingFacts& facts = events_.facts();
+  lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
+  if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
   return lines;
 }
 
@@ -252,7 +236,7 @@ std::string Extraction::comparison() const {
                         : fmt::format("{} with the effective viscosity", name);
   };
   const std::string text = fmt::format("the medium is shear-thinning (exponent {:.3g}); moduli are from {}",
-                                       settings_.conditions.flow.exponent, way(table()));
+                                       conditions().flow.exponent, way(table()));
   if (compared_ == 0) return text + ".";
   const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));
   return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*other_table_),
@@ -260,12 +244,12 @@ std::string Extraction::comparison() const {
 }
 
 void Extraction::collect() {
+  const auto viscosity = events_.viscosity_mPas();
   for (std::size_t i = 0; i < columns_.states.size(); ++i) {
     ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
     if (has_modulus(columns_.states[i])) take_modulus(i);
-    if (columns_.states[i] == ModulusState::inertial) count_inertial(columns_.viscosity[i]);
-    if (!std::isfinite(columns_.viscosity[i])) continue;
-    viscosity_sum_ += columns_.viscosity[i];
+    if (!std::isfinite(viscosity[i])) continue;
+    viscosity_sum_ += viscosity[i];
     ++viscosities_;
   }
   const ShapeColumns& s = columns_.shapes;
@@ -274,21 +258,14 @@ void Extraction::collect() {
                      s.elongation.states, s.elongation.cells});
 }
 
-void Extraction::count_inertial(double viscosity_mPas) {
-  ChannelFlow flow = settings_.conditions.flow;
-  flow.viscosity_mPas = viscosity_mPas;
-  ++inertial_;
-  max_reynolds_number_ = std::max(max_reynolds_number_, reynolds_number(buffer_density_kg_per_m3, flow));
-}
-
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
 void Extraction::add_inertia_error(const Moduli& moduli) {
-  ChannelFlow flow = settings_.conditions.flow;
+  ChannelFlow flow = conditions().flow;
   flow.viscosity_mPas = 1;
   const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
   for (std::size_t i = 0; i < moduli.states.size(); ++i) {
     if (!has_modulus(moduli.states[i])) continue;
-    const double reynolds = at_1_mPas / columns_.viscosity[i];
+    const double reynolds = at_1_mPas / events_.viscosity_mPas()[i];
     moduli.standard_error_kPa[i] =
         std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.kPa[i]);
     if (reynolds <= max_reynolds_number) continue;
@@ -306,12 +283,17 @@ void Extraction::mark_unresolved(const Moduli& moduli) {
   }
 }
 
-void Extraction::apply_gates(std::size_t first) {
-  Columns& c = columns_;
-  c.inside.resize(c.states.size());
-  gates_.apply(features_, first, c.inside);
-  for (std::size_t i = 0; i < c.inside.size(); ++i)
-    if (!c.inside[i]) leave_out(i, ModulusState::gated);
+void Extraction::apply_gates() {
+  for (std::size_t i = 0; i < columns_.states.size(); ++i)
+    if (!events_.is_inside(i)) leave_out(i, ModulusState::gated);
+}
+
+void Extraction::leave_out_cut() {
+  for (std::size_t i = 0; i < columns_.shapes.is_cut.size(); ++i) {
+    if (!columns_.shapes.is_cut[i]) continue;
+    leave_out(i, ModulusState::cut);
+    events_.count_cut(events_.is_inside(i));
+  }
 }
 
 void Extraction::leave_out(std::size_t i, ModulusState why) {

@@ -4,16 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "events/extract_settings.h"
-#include "events/gates.h"
+#include "events/event_reader.h"
 #include "events/options.h"
 #include "extract/event_block.h"
 #include "extract/event_shapes.h"
 #include "extract/extract_summary.h"
 #include "extract/shape_tally.h"
-#include "measurement/event_features.h"
 #include "measurement/recording.h"
-#include "measurement/shape_source.h"
 #include "shelf/modulus_tables.h"
 
 namespace rheocyte {
@@ -28,8 +25,9 @@ class Extraction {
   Extraction(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables);
 
   const ModulusMap& table() const { return table_; }
-  const ExtractSettings& settings() const { return settings_; }
-  const ShapeSource& shapes() const { return shapes_; }
+  const ExtractSettings& settings() const { return events_.settings(); }
+  const MeasuringConditions& conditions() const { return events_.conditions(); }
+  const ShapeSource& shapes() const { return events_.stored_shapes(); }
   const EventShapes& event_shapes() const { return event_shapes_; }
   /// What there is of each event.
   EventKnowledge knowledge() const {
@@ -37,7 +35,7 @@ class Extraction {
             event_shapes_.elongated_by()};
   }
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
-  void measure_outlines() { event_shapes_.measure_outlines(settings_.pixel_size_um); }
+  void measure_outlines() { event_shapes_.measure_outlines(settings().pixel_size_um); }
   /// The number of events that are best computed at once.
   std::size_t block() const;
   /// Of events [first, first + count), until the next call. All events in turn, so that the summary is that of all.
@@ -50,10 +48,9 @@ class Extraction {
 
  private:
   struct Columns {
-    std::vector<double> area, deformation, viscosity, modulus, standard_error, other_modulus;
+    std::vector<double> area, deformation, modulus, standard_error, other_modulus;
     std::vector<ModulusState> states, other_states;
     ShapeColumns shapes;
-    std::vector<char> inside;  ///< the gates
     void resize(std::size_t count, std::size_t compared);
   };
 
@@ -69,31 +66,26 @@ class Extraction {
   };
   void add_inertia_error(const Moduli& moduli);
   static void mark_unresolved(const Moduli& moduli);
-  void apply_gates(std::size_t first);
+  void apply_gates();
+  void leave_out_cut();
   /// Event `i` of the block has no modulus, for this reason.
   void leave_out(std::size_t i, ModulusState why);
   void take_modulus(std::size_t i);
-  void count_inertial(double viscosity_mPas);
   void compute_shapes(std::size_t first, const MeasuredEvents& events);
 
-  const Recording& recording_;
   const ModulusTables& tables_;
-  ExtractSettings settings_;
+  EventReader events_;
   const ModulusMap& table_;
   const ModulusMap* other_table_;  ///< to compare with
   bool are_square_;                ///< the tables, of which those of the tube reach farther
-  ShapeSource shapes_;
   EventShapes event_shapes_;
   ShapeTally shape_tally_;
-  Gates gates_;
-  EventFeatures features_;
   Columns columns_;
   ExtractSummary summary_;
   std::vector<double> moduli_;
   std::vector<float> standard_errors_;
   double viscosity_sum_ = 0, log_ratios_ = 0;
-  std::size_t viscosities_ = 0, compared_ = 0, outside_temperature_ = 0, inertial_ = 0;
-  double max_reynolds_number_ = 0;
+  std::size_t viscosities_ = 0, compared_ = 0;
 };
 
 }  // namespace rheocyte

@@ -11,7 +11,7 @@
 
 #include "events/direction_of_cells.h"
 #include "events/event_pass.h"
-#include "events/outlined_events.h"
+#include "events/event_reader.h"
 #include "events/plausibility.h"
 #include "infer/shape_map.h"
 #include "numeric/no_value.h"
@@ -34,7 +34,7 @@ class Fits {
        std::function<void()> goes_on)
       : goes_on_(std::move(goes_on)),
         threads_(threads),
-        events_(recording, options.measuring, use_of_outlines),
+        events_(recording, options.measuring, {.outlines = OutlineUse::required, .outlines_for = use_of_outlines}),
         simulated_exponent_(table.simulated.exponent),
         section_(table.section_of(recording, options.section)),
         is_told_(options.section),
@@ -44,7 +44,7 @@ class Fits {
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
         moduli_(events_.settings(), options, table, section_),
         table_(table) {
-    direction_ = events_.turn_downstream(table.sign_of_asymmetry());
+    events_.turn_downstream(table.sign_of_asymmetry());
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
     if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
@@ -80,8 +80,8 @@ class Fits {
   }
 
   /// What holds for all events.
-  std::vector<std::string> remarks(const ModuliOptions& options) const {
-    std::vector<std::string> remarks{
+  std::vector<std::string> lines(const ModuliOptions& options) const {
+    std::vector<std::string> lines{
         fmt::format("rheocyte {} moduli", version),
         "recording: " + events_.recording().file().string(),
         "table: " + table_.name,
@@ -93,18 +93,17 @@ class Fits {
                                                                         : "the tension is that of the table"),
         section_text(),
         fmt::format("errors of the outline beside those of the pixels: {:g} um", outline_noise_um_),
-        fmt::format("direction of the cells: {}", direction_text(direction_))};
-    for (const auto& line : tension_lines(axial_)) remarks.push_back(line);
-    const auto settings = events_.settings().lines();
-    remarks.insert(remarks.end(), settings.begin(), settings.end());
-    if (!events_.gates().empty()) remarks.push_back("only events with " + events_.gates().description());
-    return remarks;
+        fmt::format("direction of the cells: {}", direction_text(events_.facts().direction))};
+    for (const auto& line : tension_lines(axial_)) lines.push_back(line);
+    const RecordingFacts& facts = events_.facts();
+    lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
+    if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
+    return lines;
   }
 
   /// A block of events, until the next one.
   ModuliBlock take(std::size_t first, std::size_t count) {
     events_.read(first, count);
-    count_inertial();
     seen_.clear();
     for (std::size_t i = 0; i < count; ++i) seen_.push_back(events_.shape(first + i));
     compare(seen_);
@@ -140,16 +139,10 @@ class Fits {
     ModuliSummary s = tally_.summary(common_errors_);
     s.axial = axial_;
     s.median_cell = median_;
-    const ExtractSettings& settings = events_.settings();
     s.outline_noise_um = outline_noise_um_;
-    s.gates = events_.gates().description();
-    s.warnings = events_.recording().remarks();
-    s.warnings.insert(s.warnings.end(), settings.warnings.begin(), settings.warnings.end());
-    if (const auto outside = events_.outside_temperature())
-      s.warnings.push_back(settings.outside_temperature_text(outside));
-    if (const auto cut = s.counts[std::size_t(ModuliStatus::cut)]) s.warnings.push_back(cut_text(cut));
+    static_cast<RecordingFacts&>(s) = events_.facts();
+    s.warnings = remarks(s);
     if (auto missing = missing_text(s); !missing.empty()) s.warnings.push_back(std::move(missing));
-    if (inertial_ > 0) s.warnings.push_back(inertia_text(inertial_, max_reynolds_number_));
     if (is_square()) {
       s.warnings.push_back(section_text());
     } else {
@@ -168,7 +161,7 @@ class Fits {
 
  private:
   bool is_square() const { return section_ == Section::square; }
-  const MeasuringConditions& conditions() const { return events_.settings().conditions; }
+  const MeasuringConditions& conditions() const { return events_.conditions(); }
 
   static bool has_cell(const ModuliEstimate& e) {
     return e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart;
@@ -176,8 +169,9 @@ class Fits {
 
   /// All within the gates, so that nothing depends on their order.
   std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
-    OutlinedEvents events(recording, options.measuring, use_of_outlines);
-    events.turn(direction_);
+    EventReader events(recording, options.measuring,
+                       {.outlines = OutlineUse::required, .outlines_for = use_of_outlines});
+    events.turn(events_.facts().direction);
     std::vector<MeasuredCell> cells;
     for (std::size_t first = 0; first < recording.events(); first += events_of_survey) {
       const std::size_t count = std::min(events_of_survey, recording.events() - first);
@@ -218,17 +212,6 @@ class Fits {
                                   solids_values_.estimates());
   }
 
-  void count_inertial() {
-    ChannelFlow flow = conditions().flow;
-    for (const double viscosity_mPas : events_.viscosity_mPas()) {
-      flow.viscosity_mPas = viscosity_mPas;
-      const double reynolds = reynolds_number(buffer_density_kg_per_m3, flow);
-      if (!(reynolds > max_reynolds_number)) continue;
-      ++inertial_;
-      max_reynolds_number_ = std::max(max_reynolds_number_, reynolds);
-    }
-  }
-
   static ModuliEstimate gated() {
     ModuliEstimate estimate;
     estimate.status = ModuliStatus::gated;
@@ -237,8 +220,7 @@ class Fits {
 
   std::function<void()> goes_on_;
   int threads_;
-  OutlinedEvents events_;
-  int direction_ = 0;
+  EventReader events_;
   double simulated_exponent_;
   Section section_;
   bool is_told_;  ///< by the user
@@ -256,8 +238,6 @@ class Fits {
   ElongationValues solids_values_;  ///< as if they were solids
   std::vector<ShapeVector> seen_;
   std::vector<ModuliEstimate> estimates_;
-  std::size_t inertial_ = 0;
-  double max_reynolds_number_ = 0;
   ModuliTally tally_;
 };
 
@@ -270,7 +250,7 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const Modul
   EventPass pass(recording, report_progress);
   Fits fits(recording, options, table, threads, pass.goes_on());
   fits.survey(recording, options);
-  consumer.begin(recording, fits.remarks(options));
+  consumer.begin(recording, fits.lines(options));
   pass.in_blocks(events_between_progress,
                  [&](std::size_t first, std::size_t count) { consumer.take(first, fits.take(first, count)); });
   consumer.end(fits.last_remarks());

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "events/recording_facts.h"
 #include "extract/axial_summary.h"
 #include "extract/extract_summary.h"
 #include "infer/bulk_cortex_fit.h"
@@ -19,21 +20,20 @@ struct CommonErrors {
 };
 
 /// Errors of medians are those of the scatter between events and of what all have in common.
-struct ModuliSummary {
+struct ModuliSummary : RecordingFacts {
   std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
   Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
   double outline_noise_um = 0;                            ///< as it was given
-  std::string gates;                                      ///< limits of the events that count; empty: all
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;                      ///< with the remarks on the recording
   AxialSummary axial;
   MedianCell median_cell;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.outline_noise_um, s.gates, s.warnings,
-                    s.axial, s.median_cell);
+    return std::tuple_cat(RecordingFacts::fields(s), std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa,
+                                                              s.outline_noise_um, s.warnings, s.axial, s.median_cell));
   }
 
   std::size_t events() const;

@@ -95,7 +95,11 @@ class Reporting {
         tables_(options.table, options.section),
         extraction_(recording, options_, tables_) {}
   void take(std::size_t first, std::size_t count) { static_cast<void>(extraction_.compute(first, count)); }
-  std::string text() { return recommended_in_short(extraction_.summary()); }
+  void tell(PlotPanel& panel) {
+    const ExtractSummary summary = extraction_.summary();
+    panel.recommended = recommended_in_short(summary);
+    panel.warnings = remarks(summary);
+  }
 
  private:
   static ExtractOptions extract_options_of(const PlotOptions& options) {
@@ -193,7 +197,7 @@ PlotPanel plot_panel(const fs::path& file, const PlotOptions& options, LinesWant
     panel.drawable += drawable.size() / 2;
     if (reporting) reporting->take(first, count);
   });
-  if (reporting) panel.recommended = reporting->text();
+  if (reporting) reporting->tell(panel);
   if (panel.drawable == 0)
     refuse_path(file, fmt::format("no event {}has {} and {}, so there is nothing to draw.",
                                   panel.gated > 0 ? "inside the gates " : "", options.x, options.y));

@@ -40,7 +40,7 @@ std::string beside_axis_text(const BesideAxis& b) {
 }
 
 Entries counts() {
-  Entries columns{{"events", [](const S& s) { return double(s.events); }, digits_of_counts}};
+  Entries columns{{"events", [](const S& s) { return double(s.recorded); }, digits_of_counts}};
   for (std::size_t k = 0; k < states_by_deformation().size(); ++k) {
     std::string name(states_by_deformation()[k]);
     std::ranges::replace(name, ' ', '_');
@@ -53,7 +53,7 @@ Entries counts() {
 
 Entries of_modulus() {
   return {{"with_modulus_percent",
-           [](const S& s) { return 100 * double(s.with_modulus()) / double(std::max<std::size_t>(s.events, 1)); }},
+           [](const S& s) { return 100 * double(s.with_modulus()) / double(std::max<std::size_t>(s.recorded, 1)); }},
           {"young_modulus_median_kPa", [](const S& s) { return s.modulus_kPa.median; }},
           {"young_modulus_median_error_kPa", [](const S& s) { return s.modulus_kPa.median_error; }},
           {"young_modulus_first_quartile_kPa", [](const S& s) { return s.modulus_kPa.first_quartile; }},

@@ -119,7 +119,8 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
   outside_areas_ += cells.outside_areas;
   remarks_.push_back("recording: " + name);
   remarks_.push_back(fmt::format("end of the contraction: pos_x = {} um", contraction_um));
-  remarks_.insert(remarks_.end(), events.settings.begin(), events.settings.end());
+  for (const auto& lines : {events.settings, remarks(events)})
+    remarks_.insert(remarks_.end(), lines.begin(), lines.end());
 }
 
 CourseRow CourseTable::told(const Row& row, std::size_t number) const {

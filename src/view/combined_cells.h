@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-#include "events/outlined_events.h"
+#include "events/event_reader.h"
 #include "extract/event_moduli.h"
 
 namespace rheocyte {
@@ -32,7 +32,7 @@ class CombinedCells {
   Eigen::MatrixX2d outline_of(const ModuliEstimate&) const;
 
   const ModuliTable& table_;
-  OutlinedEvents events_;
+  EventReader events_;
   EventModuli moduli_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 /// Cells of one size and asymmetry whose c_2 is spread evenly, more densely where it is small.
 PopulationEvents events_of_many_elongations(int count) {
   PopulationEvents events;
-  events.flow = {20, 0.04, 15};
+  events.conditions.flow = {20, 0.04, 15};
   events.pixel_size_um = 0.34;
   events.has_outlines = true;
   events.least_area_um2 = 0, events.greatest_area_um2 = 1e9;

@@ -30,7 +30,7 @@ TEST(ExtractSummary, NoEventsHaveNoDistributionAndOneHasNoSpread) {
 
 TEST(ExtractSummary, WhatCountsAsValidIsToldApartFromOtherModuli) {
   ExtractSummary s;
-  s.events = 30;
+  s.recorded = 30;
   s.counts[0] = 25;
   s.counts[std::size_t(ModulusState::regularised)] = 3;
   s.counts[std::size_t(ModulusState::too_small)] = 2;
@@ -44,7 +44,7 @@ TEST(ExtractSummary, WhatCountsAsValidIsToldApartFromOtherModuli) {
 
 TEST(ExtractSummary, ComesBackFromItsBytes) {
   ExtractSummary s;
-  s.events = 7;
+  s.recorded = 7;
   s.counts = {1, 2, 0, 3, 0, 1};
   s.labels.chip = "c7";
   s.modulus_kPa = {1, 0.5, 2, 1.25, std::numeric_limits<double>::quiet_NaN()};
@@ -53,7 +53,7 @@ TEST(ExtractSummary, ComesBackFromItsBytes) {
   s.conditions = {{20, 0.04}, 0.34};
   s.warnings = {"first.", "second."};
   const auto back = from_bytes<ExtractSummary>(to_bytes(s)).value();
-  EXPECT_EQ(back.events, 7U);
+  EXPECT_EQ(back.recorded, 7U);
   EXPECT_EQ(back.counts, s.counts);
   EXPECT_EQ(back.modulus_kPa.third_quartile, 2);
   EXPECT_TRUE(std::isnan(back.modulus_kPa.standard_deviation));

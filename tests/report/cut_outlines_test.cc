@@ -92,8 +92,28 @@ TEST_F(CutOutlines, AreNoEventsOfPopulationsAndCourses) {
   EXPECT_TRUE(are_named(population.warnings));
   const CourseEvents course = read_course_events(recording(true), {}, quiet);
   EXPECT_EQ(course.events.size(), std::size_t(events - cut_events));
-  EXPECT_TRUE(are_named(course.warnings));
-  EXPECT_FALSE(are_named(read_course_events(recording(false), {}, quiet).warnings));
+  EXPECT_TRUE(are_named(remarks(course)));
+  EXPECT_FALSE(are_named(remarks(read_course_events(recording(false), {}, quiet))));
+}
+
+// Inertia, temperatures and the like are said of a recording, whichever command reads it.
+TEST_F(CutOutlines, AreRemarkedOnByEveryCommandAlikeAsIsInertia) {
+  MeasuringOptions measuring;
+  measuring.viscosity_mPas = 1;
+  measuring.flow_rate_ul_s = 0.4;
+  const auto file = recording(true);
+  const Recording opened(file);
+  const ModulusTables tables("");
+  ExtractOptions options;
+  options.measuring = measuring;
+  Extraction extraction(opened, options, tables);
+  extraction.compute(0, events);
+  const auto said = remarks(extraction.summary());
+  ASSERT_GE(said.size(), 2U);
+  EXPECT_TRUE(are_named(said));
+  EXPECT_NE(said.back().find("12 events have Reynolds numbers above 3, up to "), std::string::npos) << said.back();
+  EXPECT_EQ(said, remarks(read_population_events(file, measuring, StiffnessMeasure::asymmetry, quiet)));
+  EXPECT_EQ(said, remarks(read_course_events(file, measuring, quiet)));
 }
 
 TEST_F(CutOutlines, HaveNoFeatures) {

@@ -81,7 +81,7 @@ TEST(EventTable, WritesAllColumnsOfAnEventInALine) {
 
 TEST(SummaryColumns, HoldWholeNumbersWholeAndLeaveOutWhatIsUnknown) {
   ExtractSummary summary;
-  summary.events = 1234567;
+  summary.recorded = 1234567;
   summary.modulus_kPa.median = 1.23456789;
   summary.median_standard_error_kPa = NAN;
   summary.table = "HE-3D-26";

@@ -12,7 +12,7 @@ namespace {
 
 ExtractSummary of_round_cells() {
   ExtractSummary s;
-  s.events = s.shapes.judged = 100;
+  s.recorded = s.shapes.judged = 100;
   s.shapes.excess = {0.001, 0.001, no_value};
   s.shapes.by_deformation = {
       .median_kPa = {.place = MedianPlace::inside, .value = 2.4657, .error = 0.0412, .half_range = 0, .known = 100},

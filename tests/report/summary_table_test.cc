@@ -15,13 +15,13 @@ namespace {
 
 SummaryLine line_of(const std::string& recording, std::size_t events) {
   SummaryLine line{.recording = recording, .summary = {}, .error = {}};
-  line.summary.events = events;
+  line.summary.recorded = events;
   return line;
 }
 
 TEST(SummaryTable, EveryLineOfTheTableHasAllColumns) {
   ExtractSummary good;
-  good.events = 1;
+  good.recorded = 1;
   good.table = "with\ttab";
   const std::vector<SummaryLine> lines{{"a.rtdc", good, {}}, {"b.rtdc", {}, "a sentence."}};
   const auto text = summary_table(lines);
