@@ -9,6 +9,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "events/polygon_file.h"
+#include "numeric/fingerprint.h"
 #include "numeric/number_from_chars.h"
 
 namespace rheocyte {
@@ -91,6 +92,14 @@ std::string Gates::description_without(std::initializer_list<std::string_view> f
   for (const auto& polygon : polygons_) add(polygon.description());
   if (events_) add(fmt::format("{} chosen events", events_->size()));
   return text;
+}
+
+std::vector<std::string> Gates::lines_in_full() const {
+  std::vector<std::string> lines;
+  for (const auto& [feature, min, max] : limits_) lines.push_back(fmt::format("{} <= {} <= {}", min, feature, max));
+  for (const auto& polygon : polygons_) lines.push_back(polygon.description_in_full());
+  if (events_) lines.push_back(fmt::format("chosen events {}", fingerprint(fmt::format("{}", fmt::join(*events_, ",")))));
+  return lines;
 }
 
 void Gates::check(const EventFeatures& features) const {

@@ -23,6 +23,8 @@ class Gates {
   std::string description() const;
   /// The same without the limits of some features.
   std::string description_without(std::initializer_list<std::string_view> features) const;
+  /// One for each limit and polygon, with the corners of polygons, and a fingerprint of chosen events.
+  std::vector<std::string> lines_in_full() const;
   /// Of one feature; infinite without a gate.
   struct Limits {
     double min, max;

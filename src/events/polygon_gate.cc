@@ -77,6 +77,13 @@ std::string PolygonGate::description() const {
                      is_inverted_ ? "outside" : "in", corners_.size());
 }
 
+std::string PolygonGate::description_in_full() const {
+  std::string text = fmt::format("{}{},{}{} {}", x_.is_log ? "log:" : "", x_.feature, y_.is_log ? "log:" : "",
+                                 y_.feature, is_inverted_ ? "outside" : "in");
+  for (const auto& [x, y] : corners_) text += fmt::format(" {},{}", x, y);
+  return text;
+}
+
 void PolygonGate::check(const EventFeatures& features) const {
   for (const Axis& axis : {x_, y_})
     if (!features.has(axis.feature))

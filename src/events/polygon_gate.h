@@ -27,6 +27,8 @@ class PolygonGate {
 
   /// "area_um,deform in a polygon of 4 corners"
   std::string description() const;
+  /// The same with all corners.
+  std::string description_in_full() const;
   /// UserError naming a feature that the recording does not have.
   void check(const EventFeatures& features) const;
   /// Takes those of the events [first, first + inside.size()) out that are not within (or outside, if it is inverted);

@@ -21,6 +21,7 @@ struct ExtractSummary : RecordingFacts {
   ShapeVerdict shapes;
   std::string table;
   std::string corrected;              ///< for the pixels: "area and deformation", "deformation", "nothing"
+  std::string settings_hash;          ///< events/settings_hash.h
   std::vector<std::string> warnings;  ///< with the remarks on the recording
 
   /// For store/bytes.h.
@@ -28,7 +29,7 @@ struct ExtractSummary : RecordingFacts {
   static auto fields(Self& s) {
     return std::tuple_cat(RecordingFacts::fields(s),
                           std::tie(s.counts, s.modulus_kPa, s.median_standard_error_kPa, s.mean_viscosity_mPas,
-                                   s.shapes, s.table, s.corrected, s.warnings));
+                                   s.shapes, s.table, s.corrected, s.settings_hash, s.warnings));
   }
 
   /// Events with a modulus, whatever is said about it.

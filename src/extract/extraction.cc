@@ -8,6 +8,7 @@
 
 #include "case/user_error.h"
 #include "events/plausibility.h"
+#include "events/settings_hash.h"
 #include "extract/common_errors.h"
 #include "extract/fitting_table.h"
 #include "extract/soft_ends.h"
@@ -137,6 +138,7 @@ ExtractSummary Extraction::summary() {
   s.mean_viscosity_mPas = viscosity_sum_ / static_cast<double>(viscosities_);
   s.median_standard_error_kPa = median_of(standard_errors_);
   s.table = table().origin().identifier;
+  s.settings_hash = settings_hash();
   s.corrected = corrected_for_pixels(conditions(), table());
   s.shapes = shape_tally_.verdict(s.pixel_size_um);
   s.shapes.inertia_ratio_from = event_shapes_.inertia_ratio_from();
@@ -224,7 +226,19 @@ std::vector<std::string> Extraction::lines() const {
   const RecordingFacts& facts = events_.facts();
   lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
   if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
+  lines.push_back("settings hash: " + settings_hash());
   return lines;
+}
+
+std::string Extraction::settings_hash() const {
+  std::vector<std::string> lines = decisive_lines(events_.settings(), events_.gates());
+  lines.push_back(decisive_line(table().origin()));
+  lines.push_back(fmt::format("area from {}, deformation from {}", shapes().area_from(), shapes().deformation_from()));
+  if (const ElongatedLiquid* const elongated = event_shapes_.elongated_table())
+    lines.push_back(fmt::format("elongated cells by {}, {}",
+                                event_shapes_.elongated_by() == ElongatedBy::modes ? "outlines" : "inertia ratio",
+                                decisive_line(elongated->solids().origin())));
+  return rheocyte::settings_hash(lines);
 }
 
 // Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.

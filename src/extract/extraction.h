@@ -43,7 +43,7 @@ class Extraction {
   EventBlock compute(std::size_t first, std::size_t count);
   /// Of the events computed so far.
   ExtractSummary summary();
-  /// With what the moduli were computed, one line each.
+  /// With what the moduli were computed, one line each, the last one with the hash of all that decides them.
   std::vector<std::string> lines() const;
 
  private:
@@ -54,6 +54,7 @@ class Extraction {
     void resize(std::size_t count, std::size_t compared);
   };
 
+  std::string settings_hash() const;
   std::string comparison() const;
   std::string beyond_the_square() const;
   std::string made_of() const;

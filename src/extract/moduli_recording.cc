@@ -13,6 +13,7 @@
 #include "events/event_pass.h"
 #include "events/event_reader.h"
 #include "events/plausibility.h"
+#include "events/settings_hash.h"
 #include "infer/shape_map.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
@@ -48,6 +49,7 @@ class Fits {
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
     if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
+    settings_hash_ = hash_of_settings(options);
   }
 
   /// What the cells have in common, before the first block. The mean cell has a tension of its own, which is a test
@@ -85,12 +87,7 @@ class Fits {
         fmt::format("rheocyte {} moduli", version),
         "recording: " + events_.recording().file().string(),
         "table: " + table_.name,
-        fmt::format("by {}; {}",
-                    options.only_figure            ? "area, deformation and Lambda1/Lambda2"
-                    : axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour"
-                                                   : "area and modes 2 .. 6 of the contour",
-                    options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
-                                                                        : "the tension is that of the table"),
+        way_text(options),
         section_text(),
         fmt::format("errors of the outline beside those of the pixels: {:g} um", outline_noise_um_),
         fmt::format("direction of the cells: {}", direction_text(events_.facts().direction))};
@@ -98,6 +95,7 @@ class Fits {
     const RecordingFacts& facts = events_.facts();
     lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
     if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
+    lines.push_back("settings hash: " + settings_hash_);
     return lines;
   }
 
@@ -140,6 +138,7 @@ class Fits {
     s.axial = axial_;
     s.median_cell = median_;
     s.outline_noise_um = outline_noise_um_;
+    s.settings_hash = settings_hash_;
     static_cast<RecordingFacts&>(s) = events_.facts();
     s.warnings = remarks(s);
     if (auto missing = missing_text(s); !missing.empty()) s.warnings.push_back(std::move(missing));
@@ -160,6 +159,25 @@ class Fits {
   }
 
  private:
+  std::string way_text(const ModuliOptions& options) const {
+    return fmt::format("by {}; {}",
+                       options.only_figure            ? "area, deformation and Lambda1/Lambda2"
+                       : axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour"
+                                                      : "area and modes 2 .. 6 of the contour",
+                       options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
+                                                                           : "the tension is that of the table");
+  }
+
+  std::string hash_of_settings(const ModuliOptions& options) const {
+    std::vector<std::string> lines = decisive_lines(events_.settings(), events_.gates());
+    const TableSpec& spec = table_.content.spec;
+    lines.push_back(fmt::format("table: {} {}", spec.identifier, spec_hash(spec)));
+    lines.push_back(way_text(options));
+    lines.push_back(fmt::format("section {}, outline noise {} um", int(section_), outline_noise_um_));
+    if (axial_.is_given) lines.push_back(fmt::format("axial tension {} Pa", axial_.common.value_Pa));
+    return settings_hash(lines);
+  }
+
   bool is_square() const { return section_ == Section::square; }
   const MeasuringConditions& conditions() const { return events_.conditions(); }
 
@@ -225,6 +243,7 @@ class Fits {
   Section section_;
   bool is_told_;  ///< by the user
   double outline_noise_um_;
+  std::string settings_hash_;
   ModulusTables solids_;
   const ShapeMap* shapes_of_solids_;
   const ElongatedLiquid* elongated_solids_;

@@ -25,6 +25,7 @@ struct ModuliSummary : RecordingFacts {
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
   Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
   double outline_noise_um = 0;                            ///< as it was given
+  std::string settings_hash;                              ///< events/settings_hash.h
   std::vector<std::string> warnings;                      ///< with the remarks on the recording
   AxialSummary axial;
   MedianCell median_cell;
@@ -33,7 +34,7 @@ struct ModuliSummary : RecordingFacts {
   template <class Self>
   static auto fields(Self& s) {
     return std::tuple_cat(RecordingFacts::fields(s), std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa,
-                                                              s.outline_noise_um, s.warnings, s.axial, s.median_cell));
+                                                              s.outline_noise_um, s.settings_hash, s.warnings, s.axial, s.median_cell));
   }
 
   std::size_t events() const;
