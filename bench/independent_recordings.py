@@ -231,7 +231,7 @@ def judged(line, truth, of_population):
     found = {name: 100 * (number(line, column) / truth - 1) for name, column in
              {"recommended": "recommended_young_modulus_median_kPa", "deformation": "young_modulus_median_kPa",
               "outlines": "young_modulus_elongated_median_kPa"}.items()}
-    stated = [100 * number(line, f"recommended_young_modulus_{error}_kPa") / truth for error in ("median_error", "common_error")]
+    stated = [100 * number(line, f"recommended_young_modulus_median_kPa_{error}") / truth for error in ("error", "common_error")]
     at_end = [100 * sum(number(line, name) for name in names) / number(line, "events")
               for names in (("too_stiff", "unresolved"), ("too_soft", "unstable"))]
     found["of population"] = 100 * (number(line, "recommended_young_modulus_median_kPa") / of_population - 1)

@@ -11,6 +11,7 @@ was solved by the method of its tube. Recordings that are in FOLDER are not solv
 """
 import argparse
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -140,12 +141,12 @@ def main():
     options.folder.mkdir(parents=True, exist_ok=True)
     for number in range(options.first, options.first + options.recordings):
         truth, found = round_trip(number, options)
-        tension = found["axial_tension"]
         print(f"{number}: {found['events']['resolved']} of {sum(found['events'].values())} events, axial tension "
-              f"{truth['axial_tension']:.0f} Pa: {tension['value_Pa']:.1f} ({tension['lower_Pa']:.1f} to "
-              f"{tension['upper_Pa']:.1f})", end="")
+              f"{truth['axial_tension']:.0f} Pa: {found['axial_tension_Pa']:.1f} ({found['axial_tension_Pa_low']:.1f} to "
+              f"{found['axial_tension_Pa_high']:.1f})", end="")
         for name in MODULI:
-            print(f", {name} {truth[name]:.4g}: {found[name]['median']:.4g} +- {found[name]['median_error']:.2g}", end="")
+            median = re.sub("_(kPa|mN_per_m)$", r"_median_\1", name)
+            print(f", {name} {truth[name]:.4g}: {found[median]:.4g} +- {found[f'{median}_error']:.2g}", end="")
         print(";", "as a population:", ", ".join(f"{name} {told}" for name, told in found["population"].items()) or "nothing", flush=True)
 
 

@@ -11,7 +11,7 @@ import pandas
 
 REFUSED, RECOMMENDED = "# no moduli: ", "# recommended_"  # lines of analyse.py and of `rheocyte extract`
 MEDIAN = "recommended_young_modulus_median_kPa"
-ERRORS = "recommended_young_modulus_median_error_kPa", "recommended_young_modulus_common_error_kPa"
+ERRORS = "recommended_young_modulus_median_kPa_error", "recommended_young_modulus_median_kPa_common_error"
 
 
 def remarks(file, beginning):

@@ -201,11 +201,11 @@ export interface CombinedCell {
   status: string;
   sentence: string;
   young_modulus_kPa: number | null;
-  young_modulus_error_kPa: number | null;
+  young_modulus_kPa_error: number | null;
   cortex_modulus_mN_per_m: number | null;
-  cortex_modulus_error_mN_per_m: number | null;
+  cortex_modulus_mN_per_m_error: number | null;
   stiffness_kPa: number | null;
-  stiffness_error_kPa: number | null;
+  stiffness_kPa_error: number | null;
   contour: Curve | null;
   case: Sections | null;
 }
@@ -217,12 +217,12 @@ export interface EventDetail {
   version?: string;
   /** From deformation. */
   young_modulus_kPa: number | null;
-  standard_error_kPa: number | null;
+  young_modulus_kPa_error: number | null;
   /** As of an elongated cell: by the outline, or by the inertia ratio. */
   young_modulus_asymmetry_kPa?: number | null;
-  standard_error_asymmetry_kPa?: number | null;
+  young_modulus_asymmetry_kPa_error?: number | null;
   young_modulus_inertia_kPa?: number | null;
-  standard_error_inertia_kPa?: number | null;
+  young_modulus_inertia_kPa_error?: number | null;
   state: string;
   sentence: string;
   pixel_um: number | null;

@@ -19,11 +19,11 @@ const run = (recommended) => ({
   summary: Object.fromEntries(Object.entries(recommended).map(([name, value]) => [`recommended_${name}`, value])),
 });
 const some = (value, more = {}) =>
-  recommendedOf(run({ modulus: 'elongated', young_modulus_median_kPa: value, young_modulus_median_error_kPa: 0.13, young_modulus_common_error_kPa: 0.064, text: 'report E', ...more }));
+  recommendedOf(run({ modulus: 'elongated', young_modulus_median_kPa: value, young_modulus_median_kPa_error: 0.13, young_modulus_median_kPa_common_error: 0.064, text: 'report E', ...more }));
 
 test('the modulus to report stands with its errors, a bound with its direction, and else none', () => {
   assert.equal(inShort(some(4.2094)), '4.21 ± 0.13 ± 0.06');
-  assert.equal(inShort(some(4.2094, { young_modulus_common_error_kPa: null })), '4.21 ± 0.13');
+  assert.equal(inShort(some(4.2094, { young_modulus_median_kPa_common_error: null })), '4.21 ± 0.13');
   assert.equal(inShort(some(null)), 'none');
   assert.equal(inShort(some(null, { bound: 'softer', bound_kPa: 0.6 })), '< 0.600');
   assert.equal(inShort(some(null, { bound: 'stiffer', bound_kPa: 9 })), '> 9.00');

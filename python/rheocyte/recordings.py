@@ -1,6 +1,5 @@
 """Recordings of RT-DC: Young's moduli of their events, moduli of bulk and cortex, features of masks, virtual ones."""
 
-import json
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -27,17 +26,17 @@ def extract(recording, *, progress=None, **settings):
     progress        called with the fraction that is done; True: a bar of tqdm where it is installed
 
     Returns a pandas.DataFrame with one row per event: area_um2, deformation, viscosity_mPas, young_modulus_kPa,
-    standard_error_kPa (without it for published tables), state (a category). Where the recording has inertia ratios,
+    young_modulus_kPa_error (without it for published tables), state (a category). Where the recording has inertia ratios,
     contours or masks: shape_excess (inertia ratio - that of the table's cell), shape_excess_error, elongated (a flag),
     odd_fraction (of the deformation). With contours or masks: mode_3, sine_mode_2 .. sine_mode_4 and flank_slope (how the
     outline lies to the flow), and by the table of elongated cells young_modulus_asymmetry_kPa,
-    standard_error_asymmetry_kPa, elongation (length over width that the liquid's tension alone would give the cell),
+    young_modulus_asymmetry_kPa_error, elongation (length over width that the liquid's tension alone would give the cell),
     axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
     young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
     settings, warnings, shapes (what is said
     about the shapes of all events, in sentences), recommended (the modulus of the recording that is to be reported, a dict of
     the columns "recommended_..." of the summary table: modulus is "deformation", "elongated" or "none",
-    young_modulus_median_kPa with young_modulus_median_error_kPa by the scatter of the events and young_modulus_common_error_kPa
+    young_modulus_median_kPa with young_modulus_median_kPa_error by the scatter of the events and young_modulus_median_kPa_common_error
     that they share, text the sentence; None for what is not known).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
@@ -201,8 +200,6 @@ def _framed(columns, said, attributes, source):
     for name in {"settings", "shapes", "warnings"} & {*attributes}:
         attributes[name] = source.told(attributes[name])
     attributes["warnings"] += source.warnings
-    if "recommended" in attributes:
-        attributes["recommended"] = json.loads(attributes["recommended"])
     for name, column in columns.items():
         if name in said["words"]:
             columns[name] = pandas.Categorical.from_codes(column, said["words"][name])

@@ -28,7 +28,7 @@ class Moduli(NamedTuple):
     """One value per event, arrays of the shape of the events."""
 
     young_modulus_kPa: np.ndarray  # NaN without a modulus
-    standard_error_kPa: np.ndarray  # of pixels and of the table; NaN where the table does not know its error
+    young_modulus_kPa_error: np.ndarray  # of pixels and of the table; NaN where the table does not know its error
     state: np.ndarray  # int8, the names are in rheocyte.STATES: 0 valid, 8 regularised, else why there is no modulus
 
 
@@ -196,7 +196,7 @@ class Table:
                             deformations without pixels (those of measured contours give moduli that are 20 % too low)
         correct_area        whether that holds for areas, too (own tables only)
 
-        Returns Moduli: young_modulus_kPa, standard_error_kPa, state, arrays (n,). Area and modulus scale to the channel,
+        Returns Moduli: young_modulus_kPa, young_modulus_kPa_error, state, arrays (n,). Area and modulus scale to the channel,
         flow and viscosity (docs/theory-extract.md, eq:scaling). UserError for arrays that do not fit.
         """
         area, deformation = numbers(area_um2, "area_um2"), numbers(deform, "deform")

@@ -11,7 +11,7 @@ STATES: tuple[str, ...]
 
 class Moduli(NamedTuple):
     young_modulus_kPa: NDArray[np.float64]
-    standard_error_kPa: NDArray[np.float64]
+    young_modulus_kPa_error: NDArray[np.float64]
     state: NDArray[np.int8]
 
 class Shapes(NamedTuple):

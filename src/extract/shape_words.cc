@@ -76,8 +76,8 @@ std::string elongated_text(const ShapeVerdict& v) {
 
 }  // namespace
 
-std::string text_with_errors(const Median& median) {
-  std::string text = fmt::format("{:.4g}", median.value);
+std::string text_with_errors(const Median& median, int digits) {
+  std::string text = fmt::format("{:.{}g}", median.value, digits);
   for (const double error : {median.error, median.common_error})
     if (std::isfinite(error)) text += fmt::format(" +- {:.2g}", error);
   return text;

@@ -12,6 +12,6 @@ namespace rheocyte {
 std::vector<std::string> shape_lines(const ShapeVerdict& verdict);
 
 /// "1.357 +- 0.01 +- 0.027", with the errors that are known.
-std::string text_with_errors(const Median& median);
+std::string text_with_errors(const Median& median, int digits = 4);
 
 }  // namespace rheocyte

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
+#include <utility>
 
-#include "case/json_guard.h"
 #include "events/event_pass.h"
 #include "extract/extraction.h"
 #include "extract/shape_words.h"
@@ -14,6 +15,7 @@
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
 #include "python/isolated_reading.h"
+#include "python/row_dict.h"
 #include "report/event_columns.h"
 #include "report/recommended_columns.h"
 
@@ -23,7 +25,18 @@ namespace py = pybind11;
 
 namespace {
 
-GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions& options, const SharedColumns& memory,
+struct ExtractedEvents {
+  GatheredEvents gathered;
+  ExtractSummary summary;
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.gathered, s.summary);
+  }
+};
+
+ExtractedEvents extracted(const std::filesystem::path& file, const ExtractOptions& options, const SharedColumns& memory,
                          const TellProgress& report_progress) {
   const ModulusTables tables(options.table, options.section);
   Recording recording(file);
@@ -32,14 +45,8 @@ GatheredEvents extracted(const std::filesystem::path& file, const ExtractOptions
   GatheredColumns<EventBlock> events(event_columns(extraction.knowledge()));
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
-  const ExtractSummary summary = extraction.summary();
-  return {events.events(),
-          events.write(memory),
-          extraction.lines(),
-          summary.warnings,
-          shape_lines(summary.shapes),
-          summary.table,
-          json_text(recommended_json(summary))};
+  ExtractSummary summary = extraction.summary();
+  return {{events.events(), events.write(memory), extraction.lines(), summary.warnings}, std::move(summary)};
 }
 
 py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {
@@ -48,10 +55,14 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   const auto work = [&](const TellProgress& report_progress) {
     return extracted(file, options, memory, report_progress);
   };
-  return interruptible([&](const std::atomic<bool>& stop) {
-           return read_isolated(file, options.measuring, work, progress, stop);
-         })
-      .to_python(memory);
+  const ExtractedEvents events = interruptible(
+      [&](const std::atomic<bool>& stop) { return read_isolated(file, options.measuring, work, progress, stop); });
+  py::dict said;
+  said["shapes"] = shape_lines(events.summary.shapes);
+  said["table"] = events.summary.table;
+  said["settings_hash"] = events.summary.settings_hash;
+  said["recommended"] = row_dict(recommended_columns(), events.summary);
+  return events.gathered.to_python(memory, std::move(said));
 }
 
 }  // namespace

@@ -15,25 +15,18 @@ namespace rheocyte {
 struct GatheredEvents {
   std::uint64_t events = 0;
   std::vector<SharedColumn> columns;
-  std::vector<std::string> settings, warnings, shapes = {};
-  std::string table = {}, recommended = {};  ///< the latter as JSON
+  std::vector<std::string> settings, warnings;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.columns, s.settings, s.warnings, s.shapes, s.table, s.recommended);
+    return std::tie(s.events, s.columns, s.settings, s.warnings);
   }
 
-  /// A pair: SharedColumns::arrays, and a dictionary of the rest.
-  pybind11::tuple to_python(const SharedColumns& memory) const {
-    pybind11::dict said;
+  /// A pair: SharedColumns::arrays, and `said` with the rest.
+  pybind11::tuple to_python(const SharedColumns& memory, pybind11::dict said = {}) const {
     said["settings"] = settings;
     said["warnings"] = warnings;
-    if (!table.empty()) {
-      said["shapes"] = shapes;
-      said["table"] = table;
-      said["recommended"] = recommended;
-    }
     return pybind11::make_tuple(memory.arrays(columns, events), said);
   }
 };

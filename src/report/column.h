@@ -4,7 +4,8 @@
 // frames and the page's rows are made from lists of columns.
 //
 // Names: the quantity, then the statistic if it is that of several cells, then the unit: young_modulus_kPa,
-// young_modulus_median_kPa. The standard error of x is x_error, the ends of its interval are x_low and x_high.
+// young_modulus_median_kPa. The standard error of x is x_error, what all events have in common of it x_common_error, the
+// ends of its interval are x_low and x_high. Former names: report/former_names.h.
 #pragma once
 #include <functional>
 #include <span>
@@ -75,14 +76,29 @@ class ColumnList {
   template <class Value, class Error>
   ColumnList& add_with_error(const ColumnDescription& about, Value value, Error error) {
     add(about, value);
-    return add(beside(about, "_error", "standard error of "), error);
+    return add(beside(about, "_error", "standard error"), error);
+  }
+  /// x, x_error and x_common_error.
+  template <class Value, class Error, class Common>
+  ColumnList& add_with_errors(const ColumnDescription& about, Value value, Error error, Common common) {
+    add_with_error(about, value, error);
+    return add(beside(about, "_common_error", "standard error that all events have in common"), common);
   }
   /// x, x_low and x_high.
   template <class Value, class Low, class High>
   ColumnList& add_with_interval(const ColumnDescription& about, Value value, Low low, High high) {
     add(about, value);
-    add(beside(about, "_low", "lower end of the interval of "), low);
-    return add(beside(about, "_high", "upper end of the interval of "), high);
+    add(beside(about, "_low", "lower end of the interval"), low);
+    return add(beside(about, "_high", "upper end of the interval"), high);
+  }
+  /// Columns of a part of the row: of a member, or of what a function of the row returns. Names begin with `start`.
+  template <class Part, class Get>
+  ColumnList& add_of(const Columns<Part>& columns, Get part, const std::string& start = {}) {
+    for (const Column<Part>& column : columns) {
+      all_.push_back({column, [=](const Row& row) { return column.value(std::invoke(part, row)); }});
+      all_.back().name.insert(0, start);
+    }
+    return *this;
   }
   ColumnList& add_all(const Columns<Row>& more) {
     all_.insert(all_.end(), more.begin(), more.end());
@@ -92,10 +108,11 @@ class ColumnList {
 
  private:
   static ColumnDescription beside(ColumnDescription about, const std::string& ending, const std::string& words) {
-    about.sentence = words + about.name;
+    about.sentence = words + " of " + about.name;
+    if (!about.label.empty()) about.label += ", " + words;
     about.name += ending;
     about.role = {};
-    if (ending == "_error") about.digits = digits_of_errors;
+    if (ending.ends_with("_error") && about.digits == 0) about.digits = digits_of_errors;
     return about;
   }
 
@@ -104,6 +121,9 @@ class ColumnList {
 
 /// A number with the digits of its column, the word for which it stands, a text, "yes" or "no".
 std::string cell_text(const ColumnDescription& column, const CellValue& value);
+
+/// The value that its text gives: the same number in all outputs.
+CellValue printed_value(const ColumnDescription& column, const CellValue& value);
 
 /// Whether it is one: no NaN or infinity, no empty text.
 bool has_value(const CellValue& value);

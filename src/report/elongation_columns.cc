@@ -17,7 +17,7 @@ std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
               "out, see docs/real-cells.md",
         fmt::format("young_modulus_{}", word)},
        &B::modulus_kPa},
-      {{fmt::format("standard_error_{}_kPa", word), "kPa", "Standard error of E as of an elongated cell",
+      {{fmt::format("young_modulus_{}_kPa_error", word), "kPa", "Standard error of E as of an elongated cell",
         fmt::format("standard error of young_modulus_{} (kPa)", word), fmt::format("standard error {}", word)},
        &B::standard_error_kPa},
       {{"elongation", "", "Elongation by the axial tension",
@@ -29,7 +29,7 @@ std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
       {{"elongation_error", "", "Standard error of the elongation", "standard error of elongation", "elongation error"},
        &B::elongation_error,
        true},
-      {{"axial_tension_error_Pa", "Pa", "Standard error of the axial tension", "standard error of axial_tension (Pa)",
+      {{"axial_tension_Pa_error", "Pa", "Standard error of the axial tension", "standard error of axial_tension (Pa)",
         "axial tension error"},
        &B::axial_tension_error_Pa,
        true}};

@@ -65,7 +65,7 @@ ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
        stored(&B::young_modulus_kPa)}};
   if (known.errors)
     columns.push_back(
-        {{"standard_error_kPa", "kPa", "Standard error of E",
+        {{"young_modulus_kPa_error", "kPa", "Standard error of E",
           "standard error of emodulus (kPa), of pixels, table and inertia", "standard error", rank_of_error},
          stored(&B::standard_error_kPa)});
   columns.push_back({{.name = "state",

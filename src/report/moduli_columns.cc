@@ -49,19 +49,20 @@ void append(ColumnsOf<ModuliBlock>& columns, const ColumnsOf<ModuliBlock>& more)
 ColumnsOf<ModuliBlock> estimate_columns() {
   ColumnsOf<ModuliBlock> columns;
   for (const NamedModulus& m : moduli()) {
-    const auto column = [&](const std::string& name, const std::string& label, int digits) {
-      return ColumnDescription{.name = name + "_" + m.unit, .unit = unit_text(m), .sentence = label, .digits = digits};
+    const auto column = [&](const std::string& ending, const std::string& label, int digits) {
+      const std::string name = m.quantity + "_" + m.unit + ending;
+      return ColumnDescription{.name = name, .unit = unit_text(m), .sentence = label, .digits = digits};
     };
-    columns.push_back({column(m.quantity, m.label, digits_of_values),
+    columns.push_back({column("", m.label, digits_of_values),
                        of_estimates([which = m.modulus](const ModuliEstimate& e) { return e.value(which); })});
-    columns.push_back({column(m.quantity + "_error", "standard error of it", digits_of_errors),
+    columns.push_back({column("_error", "standard error of it", digits_of_errors),
                        of_estimates([which = m.modulus](const ModuliEstimate& e) { return e.error(which); })});
   }
   append(
       columns,
       {{{.name = "stiffness_kPa", .unit = "kPa", .sentence = stiffness_label, .digits = digits_of_values},
         of_estimates(&ModuliEstimate::stiffness_kPa)},
-       {{.name = "stiffness_error_kPa", .unit = "kPa", .sentence = "standard error of it", .digits = digits_of_errors},
+       {{.name = "stiffness_kPa_error", .unit = "kPa", .sentence = "standard error of it", .digits = digits_of_errors},
         of_estimates(&ModuliEstimate::stiffness_error_kPa)},
        {{.name = "chi_squared",
          .sentence = "how far the features are off, in their errors",

@@ -25,6 +25,14 @@ nlohmann::ordered_json row_json(const Columns<Row>& columns, const Row& row) {
   return object;
 }
 
+/// The same with the numbers as texts give them.
+template <class Row>
+nlohmann::ordered_json printed_row_json(const Columns<Row>& columns, const Row& row) {
+  auto object = nlohmann::ordered_json::object();
+  for (const auto& column : columns) object[column.name] = value_json(column, printed_value(column, column.value(row)));
+  return object;
+}
+
 template <class Row, std::ranges::input_range Rows>
 nlohmann::ordered_json rows_json(const Columns<Row>& columns, const Rows& rows) {
   auto all = nlohmann::ordered_json::array();

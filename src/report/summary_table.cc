@@ -1,13 +1,13 @@
 #include "report/summary_table.h"
 
-#include <algorithm>
 #include <map>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "case/split.h"
-#include "case/user_error.h"
+#include "report/former_names.h"
+#include "report/rows_text.h"
 #include "report/summary_columns.h"
 #include "store/claim.h"
 #include "store/own_file.h"
@@ -19,15 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view mark = "recording\tevents\tvalid\t";
+/// The words with which one of ours begins, or those of an older version if the file begins with them.
+std::string_view mark_of_summary(const fs::path& file) {
+  constexpr std::string_view mark = "recording\trecommended_modulus\t", former = "recording\tevents\tvalid\t";
+  return first_bytes(file, former.size()) == former ? former : mark;
+}
 
 /// By the names of their columns.
 using Row = std::map<std::string, std::string, std::less<>>;
-
-std::string cell(std::string text) {
-  std::ranges::replace(text, '\t', ' ');
-  return one_line(text, 1000);
-}
 
 Row row_of(const SummaryLine& line) {
   Row row{{"recording", line.recording.string()}};
@@ -46,7 +45,7 @@ std::vector<Row> rows_in(std::string_view text) {
     const auto cells = split(lines[k], '\t');
     if (cells.size() != names.size()) continue;  // the end of the text
     Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i < cells.size(); ++i) row[names[i]] = cells[i];
+    for (std::size_t i = 0; i < cells.size(); ++i) row[std::string(present_name(names[i]))] = cells[i];
   }
   return rows;
 }
@@ -68,17 +67,17 @@ fs::path name_in_summary(const fs::path& recording, const fs::path& folder) {
 std::string summary_table(std::span<const SummaryLine> lines, std::string_view earlier) {
   std::map<std::string, Row> by_recording;
   for (auto& row : rows_in(earlier)) by_recording[row["recording"]] = std::move(row);
-  for (const auto& line : lines) by_recording[cell(line.recording.string())] = row_of(line);
+  for (const auto& line : lines) by_recording[table_cell(line.recording.string())] = row_of(line);
   std::string text = "recording";
   for (const auto& column : summary_columns()) text.append("\t").append(column.name);
   for (auto& [recording, row] : by_recording) {
     text.append("\n").append(recording);
-    for (const auto& column : summary_columns()) text.append("\t").append(cell(row[column.name]));
+    for (const auto& column : summary_columns()) text.append("\t").append(table_cell(row[column.name]));
   }
   return text + "\n";
 }
 
-void check_place_of_summary(const fs::path& file) { check_replaceable(file, mark, Foreign::keep); }
+void check_place_of_summary(const fs::path& file) { check_replaceable(file, mark_of_summary(file), Foreign::keep); }
 
 void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
   std::error_code error;
@@ -88,7 +87,7 @@ void add_to_summary(const fs::path& file, std::span<const SummaryLine> lines) {
   for (auto& line : named) line.recording = name_in_summary(line.recording, folder);
   const Claim alone = wait_for_folder(folder);
   check_place_of_summary(file);
-  replace_own_file(file, summary_table(named, content_of(file)), mark, Foreign::keep);
+  replace_own_file(file, summary_table(named, content_of(file)), mark_of_summary(file), Foreign::keep);
 }
 
 }  // namespace rheocyte

@@ -6,7 +6,7 @@
 
 #include "events/companion_origin.h"
 #include "extract/shape_words.h"
-#include "report/recommended_columns.h"
+#include "report/rows_json.h"
 #include "report/summary_columns.h"
 #include "store/file_writer.h"
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 Json moduli_report(const fs::path& recording, const ExtractSummary& summary) {
   Json columns{{"recording", recording.string()}}, lines = Json::array({in_one_line(summary)});
-  for (const auto& column : summary_columns()) columns[column.name] = summary_json(column, summary);
+  columns.update(printed_row_json(summary_columns(), summary));
   for (const auto& one : shape_lines(summary.shapes)) lines.push_back(one);
   for (const auto& warning : summary.warnings) lines.push_back(warning);
   Json counts = Json::object();

@@ -85,7 +85,7 @@ TEST_F(OwnTable, NothingButTheRecordingIsNeeded) {
   const auto events = test::content_of(folder_ / "a_rheocyte.tsv");
   EXPECT_TRUE(
       events.starts_with("event\tarea_um2\tdeformation\tviscosity_mPas\tyoung_modulus_kPa\t"
-                         "standard_error_kPa\tstate\n# rheocyte "))
+                         "young_modulus_kPa_error\tstate\n# rheocyte "))
       << "programs look for the names in the first line: " << events;
   std::istringstream lines(events);
   for (std::string line; std::getline(lines, line);) {
@@ -388,8 +388,8 @@ TEST_F(OwnTable, WhatARecordingLacksForItsShapesIsNamed) {
   const auto events = test::content_of(folder_ / "b_rheocyte.tsv");
   EXPECT_NE(
       events.find("\tstate\tshape_excess\tshape_excess_error\telongated\todd_fraction\tyoung_modulus_inertia_kPa\t"
-                  "standard_error_inertia_kPa\telongation\taxial_tension_Pa\telongation_error\t"
-                  "axial_tension_error_Pa\n"),
+                  "young_modulus_inertia_kPa_error\telongation\taxial_tension_Pa\telongation_error\t"
+                  "axial_tension_Pa_error\n"),
       std::string::npos);
 }
 

@@ -74,7 +74,7 @@ def extracted(file, **options):
     """What `rheocyte extract` says, in the order of the features."""
     frame = rheocyte.extract(file, **options)
     states = np.array([rheocyte.STATES.index(str(state).replace("_", " ")) for state in frame["state"]])
-    return [frame["young_modulus_kPa"].to_numpy(), frame["standard_error_kPa"].to_numpy(), states,
+    return [frame["young_modulus_kPa"].to_numpy(), frame["young_modulus_kPa_error"].to_numpy(), states,
             frame["shape_excess"].to_numpy()]
 
 

@@ -49,5 +49,5 @@ def test_a_treatment_that_softens_the_cells_has_the_lower_modulus(lines):
 def test_without_outlines_the_systematic_error_contains_a_cortex(lines):
     for line in lines.values():
         if not math.isnan(median(line)):
-            assert float(line["recommended_young_modulus_common_error_kPa"]) >= 0.35 * median(line)
+            assert float(line["recommended_young_modulus_median_kPa_common_error"]) >= 0.35 * median(line)
             assert "homogeneous solids" in line["recommended_text"]

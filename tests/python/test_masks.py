@@ -35,7 +35,7 @@ def test_the_common_error_holds_what_another_rule_for_the_edge_does(drawing, pro
     setup = drawing.Setup(0, "round", 20, "", 23, 10, 6.4, deformation, 0)
     lines = [line_of(drawing, program, tmp_path / f"{masks}.rtdc", setup, masks, keep_masks=False) for masks in ("centre", "samples")]
     moduli = [drawing.number(line, "young_modulus_median_kPa") for line in lines]
-    common = drawing.number(lines[0], "recommended_young_modulus_common_error_kPa")
+    common = drawing.number(lines[0], "recommended_young_modulus_median_kPa_common_error")
     assert lines[0]["recommended_modulus"] == "deformation"
     assert 0 < moduli[0] - moduli[1] < common  # smaller masks have a greater deformation
 

@@ -315,7 +315,7 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
     assert [*frame] == [*written] and (frame["status"] == written["status"]).all()
-    assert frame.attrs["units"]["cortex_modulus_error_mN_per_m"] == "mN/m"
+    assert frame.attrs["units"]["cortex_modulus_mN_per_m_error"] == "mN/m"
     numbers = frame.drop(columns="status")
     pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-3)  # three digits or six
     # Of 60 cells with 10 % each; the sum is what the deformation tells.

@@ -25,7 +25,7 @@ def test_a_solved_cell_has_its_modulus_in_the_table(table):
                            flow_rate_ul_s=0.04, viscosity_mPas=15, flow__density_kg_per_m3=0)
     found = table.modulus(state.area_um2, state.deformation, **SMOOTH)
     assert found.young_modulus_kPa == pytest.approx(2, rel=2e-3)  # the table interpolates to some parts in a thousand
-    assert found.standard_error_kPa < 0.02 and rheocyte.STATES[int(found.state)] == "valid"
+    assert found.young_modulus_kPa_error < 0.02 and rheocyte.STATES[int(found.state)] == "valid"
 
 
 def test_shapes_are_kept_and_inputs_stay(table):

@@ -47,7 +47,7 @@ TEST(EventColumns, AreThoseOfWhatIsKnown) {
   };
   const std::vector<std::string> least{"area_um2", "deformation", "viscosity_mPas", "young_modulus_kPa", "state"};
   EXPECT_EQ(names({}), least);
-  EXPECT_EQ(names({.errors = true}).at(4), "standard_error_kPa");
+  EXPECT_EQ(names({.errors = true}).at(4), "young_modulus_kPa_error");
   EXPECT_EQ(names({.shapes = true}).size(), least.size() + 4);
   EXPECT_EQ(names({.elongated_by = ElongatedBy::inertia}).at(5), "young_modulus_inertia_kPa");
 }
@@ -92,7 +92,7 @@ TEST(SummaryColumns, HoldWholeNumbersWholeAndLeaveOutWhatIsUnknown) {
   };
   EXPECT_EQ(text("events"), "1234567");
   EXPECT_EQ(text("young_modulus_median_kPa"), "1.23457");
-  EXPECT_EQ(text("young_modulus_standard_error_median_kPa"), "");
+  EXPECT_EQ(text("young_modulus_kPa_error_median"), "");
   EXPECT_EQ(text("table"), "HE-3D-26");
 }
 

@@ -62,7 +62,7 @@ void expect_the_numbers_of_extract(const std::filesystem::path& file, const test
       return value[0];
     };
     for (const auto& [key, name] :
-         {std::pair("young_modulus_kPa", "emodulus"), std::pair("standard_error_kPa", "standard_error"),
+         {std::pair("young_modulus_kPa", "emodulus"), std::pair("young_modulus_kPa_error", "standard_error"),
           std::pair("shape_excess", "shape_excess"),
           std::pair("young_modulus_asymmetry_kPa", "young_modulus_asymmetry"),
           std::pair("young_modulus_inertia_kPa", "young_modulus_inertia"),

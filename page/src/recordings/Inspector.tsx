@@ -67,8 +67,8 @@ function Value({ value, error }: { value: number; error: number | null | undefin
 function Headline({ detail, by }: { detail: EventDetail; by: string }) {
   const value = detail.young_modulus_kPa;
   const elongated = detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null;
-  const error = detail.standard_error_asymmetry_kPa ?? detail.standard_error_inertia_kPa;
-  const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.standard_error_kPa} />;
+  const error = detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error;
+  const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.young_modulus_kPa_error} />;
   if (by !== 'elongated' && by !== 'none')
     return (
       <>

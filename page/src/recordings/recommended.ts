@@ -27,7 +27,7 @@ export function recommendedOf(run: Moduli | undefined): Recommended | undefined 
   return {
     by: textOf(said('modulus')),
     value: numberOf(said('young_modulus_median_kPa')),
-    errors: ['median', 'common'].map((kind) => numberOf(said(`young_modulus_${kind}_error_kPa`))),
+    errors: ['error', 'common_error'].map((kind) => numberOf(said(`young_modulus_median_kPa_${kind}`))),
     bound: textOf(said('bound')),
     limit: numberOf(said('bound_kPa')),
     text: textOf(said('text')).replaceAll('+-', '±'),

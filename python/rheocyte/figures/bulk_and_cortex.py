@@ -11,7 +11,7 @@ from rheocyte.figures.cases import make_folder
 from rheocyte.files import InputError, write_text
 
 CELLS, SINGLE = 500, 40  # of the recording, and how many of them are drawn
-NAMES = ["young_modulus_kPa", "young_modulus_error_kPa", "cortex_modulus_mN_per_m", "cortex_modulus_error_mN_per_m"]
+NAMES = ["young_modulus_kPa", "young_modulus_kPa_error", "cortex_modulus_mN_per_m", "cortex_modulus_mN_per_m_error"]
 TOLD = ("resolved", "not-told-apart")
 YOUNG_KPA, CORTEX_MN_PER_M = 2.0, 9.6  # medians of the virtual cells
 SPEC = f"""# Virtual cells of figure 9

@@ -59,7 +59,7 @@ def draw(figure, cells):
         if known:
             axes.plot(*outline(cell, "fitted"), color=style.LINEAR, linewidth=1)
             text = (f"E {cell['young_modulus_kPa']:.2g} kPa, E2D {cell['cortex_modulus_mN_per_m']:.2g} mN/m\n"
-                    f"T {cell['axial_tension_Pa']:.0f} ± {cell['axial_tension_error_Pa']:.0f} Pa\n"
+                    f"T {cell['axial_tension_Pa']:.0f} ± {cell['axial_tension_Pa_error']:.0f} Pa\n"
                     f"χ² {cell['chi_squared']:.2g} at {cell['degrees_of_freedom']}"
                     + {"poor-fit": ": a poor fit", "outside-table": ", beyond the table"}.get(cell["status"], "")
                     + ("\nat the end of the table" if cell["at_end_of_table"] else ""))

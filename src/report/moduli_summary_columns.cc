@@ -1,0 +1,109 @@
+#include "report/moduli_summary_columns.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/distribution_columns.h"
+
+namespace rheocyte {
+
+Columns<ModuliSummary> moduli_summary_columns() {
+  using S = ModuliSummary;
+  ColumnList<S> list;
+  list.add({"outline_noise_um", "um", "Errors of the outline", "beside those of the pixels, as given"},
+           &S::outline_noise_um)
+      .add({"gates", "", "Gates", "limits and polygons of the events that count"}, &S::gates)
+      .add({"settings_hash", "", "Hash of the settings", "the same for results that are comparable"}, &S::settings_hash);
+  add_quartiles(list, {"young_modulus", "kPa", "kPa", "E beside a cortex", "Young's modulus of the resolved events"},
+                [](const S& s) { return s.young_kPa; });
+  add_quartiles(list,
+                {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
+                [](const S& s) { return s.cortex_mN_per_m; });
+  add_quartiles(list, {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0", "the stiffness of all events that have one"},
+                [](const S& s) { return s.stiffness_kPa; });
+  const auto of_tension = [](auto number) {
+    return [number](const S& s) { return std::invoke(number, s.axial.common); };
+  };
+  list.add_with_interval({"axial_tension_Pa", "Pa", "Axial tension of the liquid",
+                          "along the flow, that all cells have in common, with the 90 % interval"},
+                         of_tension(&CommonTension::value_Pa), of_tension(&CommonTension::lower_Pa),
+                         of_tension(&CommonTension::upper_Pa))
+      .add({"axial_tension_is_given", "", "Axial tension given", "by the user"},
+           [](const S& s) { return s.axial.is_given; })
+      .add_count("axial_tension_cells", of_tension(&CommonTension::cells))
+      .add({"axial_tension_chi_squared_per_freedom", "", "Chi squared per degree of freedom",
+            "of the mean features of the cells"},
+           of_tension(&CommonTension::misfit))
+      .add({"wall_shear_stress_Pa", "Pa", "Shear stress of the wall", "median over the cells"},
+           [](const S& s) { return s.axial.wall_stress_Pa; });
+  return std::move(list).columns();
+}
+
+Columns<MedianCell> median_cell_columns() {
+  using M = MedianCell;
+  ColumnList<M> list;
+  list.add_count("cells", &M::cells)
+      .add({"status", "", "Status", "of the fit"}, [](const M& m) { return name_of(m.status); })
+      .add_with_error({"young_modulus_kPa", "kPa", "E beside a cortex", "Young's modulus"}, &M::young_kPa,
+                      &M::young_error_kPa)
+      .add_with_error({"cortex_modulus_mN_per_m", "mN/m", "Cortex modulus E2D", "of the median cell"},
+                      &M::cortex_mN_per_m, &M::cortex_error_mN_per_m)
+      .add_with_error({"tension_mN_per_m", "mN/m", "Cortex tension", "of the median cell"}, &M::tension_mN_per_m,
+                      &M::tension_error_mN_per_m)
+      .add_with_error({"stiffness_kPa", "kPa", "Stiffness E + E2D/r0", "of the median cell"}, &M::stiffness_kPa,
+                      &M::stiffness_error_kPa)
+      .add_with_error({"axial_tension_Pa", "Pa", "Axial tension of the liquid", "by the median cell alone"},
+                      &M::axial_tension_Pa, &M::axial_tension_error_Pa)
+      .add({"chi_squared", "", "Chi squared", "how far the features are off, in their errors"}, &M::chi_squared)
+      .add_count("degrees_of_freedom", &M::freedom)
+      .add({"at_end_of_table", "", "At the end of the table", "beyond which other cells may fit better"},
+           &M::is_at_end);
+  return std::move(list).columns();
+}
+
+std::vector<FeatureOfMedian> features_of(const MedianCell& m) {
+  const double area = std::exp(m.measured[0]);
+  std::vector<FeatureOfMedian> features{{"area_um2", area, area * m.error[0], std::exp(m.fitted[0])},
+                                        {"deformation", m.measured[1], m.error[1], m.fitted[1]}};
+  for (int k = min_mode; k <= max_mode; ++k) {
+    const auto f = std::size_t(int(ShapeFeature::first_mode) + k - min_mode);
+    features.push_back({fmt::format("c{}", k), m.measured[f], m.error[f], m.fitted[f]});
+  }
+  return features;
+}
+
+Columns<FeatureOfMedian> feature_of_median_columns() {
+  using F = FeatureOfMedian;
+  ColumnList<F> list;
+  list.add({"name", "", "Feature", "area_um2, deformation or a mode of the outline"}, &F::name)
+      .add_with_error({"measured", "", "Measured", "median of the cells, without what pixels add"}, &F::measured,
+                      &F::error)
+      .add({"fitted", "", "Fitted", "of the cell of the table"}, &F::fitted);
+  return std::move(list).columns();
+}
+
+std::vector<SlopeBetweenCells> slopes_of(const AxialSummary& s) {
+  std::vector<SlopeBetweenCells> slopes;
+  if (!s.is_of_elongated_cells || std::isnan(s.measured.value[0])) return slopes;
+  for (std::size_t k = 0; k < slope_count; ++k)
+    slopes.push_back({fmt::format("dc{}/dc2", k + 3), s.measured.value[k], s.measured.error[k],
+                      s.predicted.by_stiffness[k], s.predicted.by_fraction[k], s.predicted.by_ratio[k],
+                      s.predicted.by_axial_tension[k]});
+  return slopes;
+}
+
+Columns<SlopeBetweenCells> slope_columns() {
+  using S = SlopeBetweenCells;
+  ColumnList<S> list;
+  list.add({"name", "", "Slope", "dc3/dc2, dc4/dc2 or dc5/dc2, between cells at equal area"}, &S::name)
+      .add_with_error({"slope", "", "Measured slope", "between the cells"}, &S::value, &S::error)
+      .add({"by_stiffness", "", "Slope by the stiffness", "of cells that differ in it alone"}, &S::by_stiffness)
+      .add({"by_cortex_fraction", "", "Slope by the fraction of the cortex", "likewise"}, &S::by_cortex_fraction)
+      .add({"by_tension_ratio", "", "Slope by the tension of the cortex", "over its modulus, likewise"},
+           &S::by_tension_ratio)
+      .add({"by_axial_tension", "", "Slope by the axial tension", "likewise"}, &S::by_axial_tension);
+  return std::move(list).columns();
+}
+
+}  // namespace rheocyte
