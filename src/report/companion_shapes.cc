@@ -13,13 +13,13 @@ constexpr std::array<std::string_view, 4> kept_shapes{"inert_ratio_cvx", "inert_
 
 }  // namespace
 
-CompanionShapes::CompanionShapes(CompanionFile& companion, const Recording& recording, Extraction& extraction)
+CompanionShapes::CompanionShapes(CompanionWriter& companion, const Recording& recording, Extraction& extraction)
     : companion_(companion), recording_(recording) {
   const bool has_outlines = extraction.event_shapes().has_asymmetry() && extraction.settings().pixel_size_um > 0;
   for (const OutlineFeature& feature : outline_features()) {
     if (std::ranges::find(kept_shapes, feature.name) == kept_shapes.end()) continue;
     if (recording.has_scalar(feature.name)) {
-      companion.add_feature_of(recording, feature.name);
+      companion.add_feature(feature.name, true);
       stored_.push_back(&feature);
     } else if (has_outlines) {
       companion.add_feature(feature.name);

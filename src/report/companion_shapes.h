@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "extract/extraction.h"
-#include "measurement/companion_file.h"
+#include "report/companion_writer.h"
 
 namespace rheocyte {
 
@@ -12,13 +12,13 @@ class CompanionShapes {
  public:
   /// Adds what the recording stores, or what its contours or masks tell where these are read for the moduli anyway. All
   /// must outlive the object.
-  CompanionShapes(CompanionFile& companion, const Recording& recording, Extraction& extraction);
+  CompanionShapes(CompanionWriter& companion, const Recording& recording, Extraction& extraction);
 
   /// Of the events from `first` on.
   void write(std::size_t first, const EventBlock& block);
 
  private:
-  CompanionFile& companion_;
+  CompanionWriter& companion_;
   const Recording& recording_;
   std::vector<const OutlineFeature*> stored_, measured_;
   std::vector<double> values_;

@@ -15,6 +15,8 @@
 #include "measurement/contour_tilt.h"
 #include "measurement/event_outlines.h"
 #include "measurement/shape_source.h"
+#include "report/companion_writer.h"
+#include "report/event_column.h"
 
 namespace rheocyte {
 
@@ -24,21 +26,19 @@ namespace {
 
 constexpr std::size_t outlines_per_block = 4096;
 
-/// The features of the tilt in a companion, under the names that are free.
-struct TiltColumn {
-  std::string name;
-  const TiltFeature* feature;
+/// What the outlines of a block of events tell.
+struct OutlineBlock {
+  std::span<const ContourFeatures> features;
+  std::span<const OutlineTilt> tilt;
 };
 
-std::vector<TiltColumn> add_tilt(CompanionFile& companion, const Recording& recording) {
-  std::vector<TiltColumn> columns;
-  const std::vector<std::string> names = free_features(recording);
-  for (const TiltFeature& feature : tilt_features()) {
-    if (columns.size() == names.size()) break;
-    columns.push_back({names[columns.size()], &feature});
-    companion.add_feature(columns.back().name);
-    describe_feature(companion, columns.back().name, feature.name, feature.sentence);
-  }
+ColumnsOf<OutlineBlock> outline_columns() {
+  ColumnsOf<OutlineBlock> columns;
+  for (const OutlineFeature& feature : outline_features())
+    columns.push_back({{.name = feature.name, .role = feature.name}, of_each(&OutlineBlock::features, feature.value)});
+  for (const TiltFeature& feature : tilt_features())
+    columns.push_back({{.name = feature.name, .sentence = feature.sentence, .role = feature.name, .rank = 1},
+                       of_each(&OutlineBlock::tilt, feature.value)});
   return columns;
 }
 
@@ -88,30 +88,21 @@ FeaturesSummary features_of_recording(const fs::path& file, const fs::path& plac
   const double size_um = pixel_size_um(recording, given_pixel_size_um, "--pixel-size-um");
   EventPass pass(recording, on_progress);
   OutlineReader outlines(recording, size_um);
-  CompanionFile companion(scratch, recording, program());
-  for (const OutlineFeature& feature : outline_features()) companion.add_feature(feature.name);
-  const std::vector<TiltColumn> tilt_columns = add_tilt(companion, recording);
-  add_origin(companion, "features", recording, fs::absolute(scratch).parent_path(),
-             {fmt::format("pixel size: {} um", size_um),
-              fmt::format("outlines: {}", recording.has_contours() ? "contours" : "masks"),
-              fmt::format("direction of the cells: {}", direction_text(outlines.direction()))});
-  FeaturesSummary summary{recording.events(), 0, outline_features().size() + tilt_columns.size()};
+  BlockValues<OutlineBlock> values(outline_columns());
+  CompanionWriter companion(scratch, recording);
+  companion.add(descriptions(values.columns()));
+  companion.add_origin("features", fs::absolute(scratch).parent_path(),
+                       {fmt::format("pixel size: {} um", size_um),
+                        fmt::format("outlines: {}", recording.has_contours() ? "contours" : "masks"),
+                        fmt::format("direction of the cells: {}", direction_text(outlines.direction()))});
+  FeaturesSummary summary{recording.events(), 0, values.columns().size() - companion.missing().size()};
   std::vector<ContourFeatures> features;
   std::vector<OutlineTilt> tilt;
-  std::vector<double> values;
   pass.in_blocks(outlines_per_block, [&](std::size_t first, std::size_t count) {
     features.resize(count);
     tilt.resize(count);
-    values.resize(count);
     outlines.read(first, features, tilt);
-    for (const OutlineFeature& feature : outline_features()) {
-      std::ranges::transform(features, values.begin(), feature.value);
-      companion.write(feature.name, first, values);
-    }
-    for (const TiltColumn& column : tilt_columns) {
-      std::ranges::transform(tilt, values.begin(), column.feature->value);
-      companion.write(column.name, first, values);
-    }
+    companion.write(first, values.of({features, tilt}));
     summary.with_outline += std::size_t(
         std::ranges::count_if(features, [](const ContourFeatures& f) { return std::isfinite(f.area_um2); }));
   });

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "events/companion_origin.h"
 #include "extract/shape_words.h"
 #include "report/rows_json.h"
 #include "report/summary_columns.h"
@@ -31,13 +30,12 @@ Json moduli_report(const fs::path& recording, const ExtractSummary& summary) {
 }
 
 void ModuliCompanion::begin(const Recording& recording, const std::vector<std::string>&) {
-  companion_.emplace(file_, recording, program());
-  for (const ColumnDescription& column : values_.columns()) companion_->add_feature(column.role);
+  companion_.emplace(file_, recording);
+  companion_->add(descriptions(values_.columns()));
 }
 
 void ModuliCompanion::take(std::size_t first, const ModuliBlock& block) {
-  const auto values = values_.of(block);
-  for (std::size_t k = 0; k < values.size(); ++k) companion_->write(values_.columns()[k].role, first, values[k]);
+  companion_->write(first, values_.of(block));
 }
 
 void ModuliCompanion::end(const std::vector<std::string>&) { companion_->close(); }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "extract/moduli_recording.h"
-#include "measurement/companion_file.h"
+#include "report/companion_writer.h"
 #include "report/extract_recording.h"
 #include "report/moduli_columns.h"
 
@@ -26,7 +26,7 @@ class ModuliCompanion : public ModuliConsumer {
  private:
   std::filesystem::path file_;
   BlockValues<ModuliBlock> values_{moduli_features()};
-  std::optional<CompanionFile> companion_;
+  std::optional<CompanionWriter> companion_;
 };
 
 /// Of a table of events the lines of some events, whose numbers count from 0, with all remarks. UserError if they
