@@ -68,6 +68,31 @@ class Floors(TreeTest):
         self.accept({f"src/{owner}/a.cc": "#include <hdf5.h>\n" for owner in ("measurement", "table")})
 
 
+class Formats(TreeTest):
+    def test_rooms_that_return_values_make_no_tables_and_no_json(self):
+        for line, words in (('append("\\t");', "a tab"), ('"a\\tb"', "a tab"), ('"\\t\\n"', "a tab"),
+                            ("#include <nlohmann/json.hpp>", "nlohmann"),
+                            (r'text += "{\"value\": 1}";', "JSON"), (r'format(", \"error\": {}", e)', "JSON")):
+            for room in ("events", "shelf", "extract", "experiment"):
+                self.reject({f"src/{room}/a.cc": f"\n{line}\n"}, (f"src/{room}/a.cc", 2), words)
+            self.accept({"src/report/a.cc": f"{line}\n"})
+
+    def test_blanks_that_are_stripped_and_words_in_quotes_pass(self):
+        self.accept({"src/events/a.cc": r'''strip(text, " \t\r\n"); strip(text, "[] \t"); say("the medium \"{}\" has");
+f("such as [\"A1.rtdc\", \"A2.rtdc\"]."); // a\tb
+'''})
+
+    def test_a_column_has_one_spelling(self):
+        for name in ("young_modulus_error_kPa", "standard_error_kPa", "standard_error_asymmetry_kPa", "value_upper_kPa",
+                     "lower_Pa", "axial_tension_error_Pa"):
+            for file, text in (("src/report/a.cc", f'"{name}"'), ("python/rheocyte/a.py", f"frame['{name}']"),
+                               ("page/src/a.ts", f"said('{name}')")):
+                self.reject({file: f"\n{text}\n"}, (file, 2), "no name of a column")
+        self.accept({"src/report/a.cc": '"young_modulus_kPa_error", s.young_error_kPa, "error_percent"\n',
+                     "src/report/former_names.cc": '"standard_error_kPa"\n',
+                     "tests/report/a.cc": '"standard_error_kPa"\n'})
+
+
 class Headers(TreeTest):
     def test_a_header_needs_pragma_once(self):
         self.accept({"src/case/a.h": "// comment\n" + HEADER})

@@ -6,12 +6,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/pixelation.h"
 #include "numeric/no_value.h"
+#include "store/read_file.h"
 #include "table/scale.h"
 
 namespace rheocyte {
@@ -44,6 +46,20 @@ PublishedTable read_published_table(const std::filesystem::path& file, const cha
   if (text.rows.size() < 3) refuse("has fewer than three rows.");
   if (!(std::ranges::max(table.deformation) > 0)) refuse("no row has a positive deformation.");
   return table;
+}
+
+std::string published_identifier(const std::filesystem::path& file) {
+  constexpr std::size_t longest_head = std::size_t{64} << 10U;
+  const std::string quoted = fmt::format("\"{}\"", table_identifier_key);
+  std::istringstream stream(first_bytes(file, longest_head).value_or(""));
+  for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
+    const auto key = line.find(quoted);
+    if (key == std::string::npos) continue;
+    const auto start = line.find('"', line.find(':', key));
+    const auto end = start == std::string::npos ? start : line.find('"', start + 1);
+    if (end != std::string::npos) return line.substr(start + 1, end - start - 1);
+  }
+  return {};
 }
 
 PlanePoint with_pixelation(const PlanePoint& cell, double pixel_size_um) {

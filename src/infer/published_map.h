@@ -25,6 +25,9 @@ struct PublishedTable {
 PublishedTable read_published_table(const std::filesystem::path& file,
                                     const char* identifier_key = table_identifier_key);
 
+/// The identifier that the metadata in the head of such a file give, without reading its numbers; empty if it has none.
+std::string published_identifier(const std::filesystem::path& file);
+
 /// Where a cell lies in a picture with such pixels by the law of the field's programs, which leaves areas alone.
 PlanePoint with_pixelation(const PlanePoint& cell, double pixel_size_um);
 

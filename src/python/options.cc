@@ -8,7 +8,7 @@
 #include <string>
 
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 #include "python/bindings.h"
 
 namespace rheocyte {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -13,9 +11,9 @@
 #include "case/nearest_name.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "infer/published_map.h"
 #include "shelf/shipped_tables.h"
 #include "store/environment.h"
-#include "store/read_file.h"
 
 namespace rheocyte {
 
@@ -55,27 +53,13 @@ std::vector<fs::path> package_folders() {
   return folders;
 }
 
-// The identifier that the metadata in the head of a table give, without reading its numbers.
-std::string identifier_of(const fs::path& file) {
-  constexpr std::size_t longest_head = std::size_t{64} << 10U;
-  std::istringstream stream(first_bytes(file, longest_head).value_or(""));
-  for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
-    const auto key = line.find("\"identifier\"");
-    if (key == std::string::npos) continue;
-    const auto start = line.find('"', line.find(':', key));
-    const auto end = start == std::string::npos ? start : line.find('"', start + 1);
-    if (end != std::string::npos) return line.substr(start + 1, end - start - 1);
-  }
-  return {};
-}
-
 std::map<std::string, fs::path> installed_tables() {
   std::map<std::string, fs::path> tables;
   for (const auto& folder : package_folders()) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder / "dclab/features/emodulus", error)) {
       if (entry.path().extension() != ".txt") continue;
-      const auto identifier = identifier_of(entry.path());
+      const auto identifier = published_identifier(entry.path());
       if (!identifier.empty()) tables.try_emplace(identifier, entry.path());
     }
   }

@@ -7,7 +7,7 @@
 #include "case/case_keys.h"
 #include "case/user_error.h"
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 #include "measurement/viscosity.h"
 #include "numeric/number_from_chars.h"
 #include "store/build_info.h"

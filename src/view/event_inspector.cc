@@ -225,7 +225,7 @@ Json EventInspector::inspect(std::size_t event) {
     if (const auto size = recording_.image_size(feature))
       j["image_size"] = {{"width", size->width}, {"height", size->height}};
   for (const char* key :
-       {"young_modulus_kPa", "standard_error_kPa", "shape_excess", "outline", "model", "combined", "case"})
+       {"young_modulus_kPa", "young_modulus_kPa_error", "shape_excess", "outline", "model", "combined", "case"})
     j[key] = nullptr;
   const Eigen::MatrixX2d points = outline(event);
   if (points.rows() > 0) j["outline"] = points_json(points);

@@ -8,7 +8,7 @@
 #include "case/user_error.h"
 #include "events/polygon_file.h"
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 #include "shelf/shipped_tables.h"
 #include "view/path_text.h"
 

@@ -12,7 +12,7 @@ namespace rheocyte {
 /// The path of a table that was given to the view, by its item's number. UserError if there is none.
 using TableItem = std::function<std::filesystem::path(std::size_t number)>;
 
-/// Of settings as GET /api/settings declares them (events/settings_text.h). The table is the identifier of one that
+/// Of settings as GET /api/settings declares them (report/settings_text.h). The table is the identifier of one that
 /// comes with the program, or the number of an item, and polygons are features and corners: no path is ever taken.
 /// UserError naming the setting.
 ExtractOptions extract_options(const nlohmann::ordered_json& settings, const TableItem& table_item);

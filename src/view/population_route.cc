@@ -10,7 +10,7 @@
 #include "case/user_error.h"
 #include "events/polygon_file.h"
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 #include "report/population_json.h"
 #include "report/population_lines.h"
 #include "serve/few_at_once.h"

@@ -1,4 +1,4 @@
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 
 #include <fmt/format.h>
 

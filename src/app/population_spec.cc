@@ -1,4 +1,4 @@
-#include "experiment/population_spec.h"
+#include "app/population_spec.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "case/toml_json.h"
 #include "case/user_error.h"
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 
 namespace rheocyte {
 namespace {

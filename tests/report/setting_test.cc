@@ -8,7 +8,7 @@
 
 #include "case/user_error.h"
 #include "events/recording_settings.h"
-#include "events/settings_text.h"
+#include "report/settings_text.h"
 
 namespace rheocyte::setting_test {
 namespace {
