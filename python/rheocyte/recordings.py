@@ -33,11 +33,11 @@ def extract(recording, *, progress=None, **settings):
     young_modulus_asymmetry_kPa_error, elongation (length over width that the liquid's tension alone would give the cell),
     axial_tension_Pa (of the liquid, along the flow) and their errors; without outlines the modulus is
     young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
-    settings, warnings, shapes (what is said
-    about the shapes of all events, in sentences), recommended (the modulus of the recording that is to be reported, a dict of
-    the columns "recommended_..." of the summary table: modulus is "deformation", "elongated" or "none",
-    young_modulus_median_kPa with young_modulus_median_kPa_error by the scatter of the events and young_modulus_median_kPa_common_error
-    that they share, text the sentence; None for what is not known).
+    settings, settings_hash (the same for frames that are comparable), warnings, shapes (sentences on the shapes of all
+    events), recommended (the modulus of the recording that is to be reported, a dict of the columns "recommended_..." of
+    the summary table: modulus is "deformation", "elongated" or "none", young_modulus_median_kPa, its standard errors
+    young_modulus_median_kPa_error by the scatter of the events and young_modulus_median_kPa_common_error that all events have
+    in common, text the sentence; None for what is not known).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
     known to break down on some damaged files.
@@ -60,7 +60,7 @@ def moduli(recording, table=None, *, progress=None, **settings):
 
     Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
     tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status, section_factor (c3 over that in the
-    tube). attrs: settings, warnings.
+    tube). attrs: settings, settings_hash, warnings.
     """
     options = filled(native.ModuliOptions(), settings)
     options.table = path("" if table is None else table, "table")

@@ -31,6 +31,11 @@ class Moduli(NamedTuple):
     young_modulus_kPa_error: np.ndarray  # of pixels and of the table; NaN where the table does not know its error
     state: np.ndarray  # int8, the names are in rheocyte.STATES: 0 valid, 8 regularised, else why there is no modulus
 
+    @property
+    def standard_error_kPa(self):
+        """Former name of young_modulus_kPa_error."""
+        return self.young_modulus_kPa_error
+
 
 class Shapes(NamedTuple):
     """One value per event, arrays of the shape of the events; NaN where something is missing."""

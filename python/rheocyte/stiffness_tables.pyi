@@ -13,6 +13,8 @@ class Moduli(NamedTuple):
     young_modulus_kPa: NDArray[np.float64]
     young_modulus_kPa_error: NDArray[np.float64]
     state: NDArray[np.int8]
+    @property
+    def standard_error_kPa(self) -> NDArray[np.float64]: ...
 
 class Shapes(NamedTuple):
     expected: NDArray[np.float64]

@@ -46,7 +46,8 @@ ExtractedEvents extracted(const std::filesystem::path& file, const ExtractOption
   pass.in_blocks(extraction.block(),
                  [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
   ExtractSummary summary = extraction.summary();
-  return {{events.events(), events.write(memory), extraction.lines(), summary.warnings}, std::move(summary)};
+  return {{events.events(), events.write(memory), extraction.lines(), summary.warnings, summary.settings_hash},
+          std::move(summary)};
 }
 
 py::tuple extract(const std::filesystem::path& file, const ExtractOptions& options, const PythonProgress& progress) {
@@ -60,7 +61,6 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   py::dict said;
   said["shapes"] = shape_lines(events.summary.shapes);
   said["table"] = events.summary.table;
-  said["settings_hash"] = events.summary.settings_hash;
   said["recommended"] = row_dict(recommended_columns(), events.summary);
   return events.gathered.to_python(memory, std::move(said));
 }

@@ -16,17 +16,19 @@ struct GatheredEvents {
   std::uint64_t events = 0;
   std::vector<SharedColumn> columns;
   std::vector<std::string> settings, warnings;
+  std::string settings_hash;
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.columns, s.settings, s.warnings);
+    return std::tie(s.events, s.columns, s.settings, s.warnings, s.settings_hash);
   }
 
   /// A pair: SharedColumns::arrays, and `said` with the rest.
   pybind11::tuple to_python(const SharedColumns& memory, pybind11::dict said = {}) const {
     said["settings"] = settings;
     said["warnings"] = warnings;
+    said["settings_hash"] = settings_hash;
     return pybind11::make_tuple(memory.arrays(columns, events), said);
   }
 };

@@ -41,7 +41,8 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
              GatheredModuli gathered;
              const auto summary =
                  moduli_of_recording(recording, options, table, processors(), gathered, report_progress);
-             return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings};
+             return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings,
+                     summary.settings_hash};
            };
            return read_isolated(recording, options.measuring, work, progress, stop);
          })

@@ -9,7 +9,9 @@
 
 #include "measurement/recording_writer.h"
 #include "report/event_table.h"
+#include "report/former_names.h"
 #include "report/moduli_columns.h"
+#include "report/moduli_summary_columns.h"
 #include "report/summary_columns.h"
 #include "report/time_course_table.h"
 
@@ -37,6 +39,39 @@ TEST(EventColumns, HaveNamesOfTheirOwnAndRolesTheirLabels) {
     rank = column.rank;
   }
   for (const auto& feature : moduli_features()) EXPECT_TRUE(roles.insert(feature.role).second) << feature.role;
+}
+
+/// Quantity, statistic, unit, and then what else a name may end in.
+template <class Columns>
+void expect_present_names(const Columns& columns) {
+  for (const auto& column : columns) EXPECT_EQ(present_name(column.name), column.name);
+}
+
+TEST(Columns, HaveNoFormerNamesAndThoseOfSummariesALabelAndASentence) {
+  for (const auto by : {ElongatedBy::modes, ElongatedBy::inertia})
+    expect_present_names(event_columns({true, true, true, by}));
+  expect_present_names(moduli_columns());
+  expect_present_names(summary_columns());
+  expect_present_names(moduli_summary_columns());
+  expect_present_names(median_cell_columns());
+  for (const auto& column : summary_columns())
+    EXPECT_TRUE(column.digits == digits_of_counts || !(column.label.empty() || column.sentence.empty())) << column.name;
+}
+
+TEST(Columns, OfAPartOfARowAreNamedBehindItsStartAndPrintedNumbersAreThoseOfTexts) {
+  ColumnList<double> part;
+  part.add_with_errors({"x_kPa", "kPa", "X", "of a test", "", 0, 3}, [](double x) { return x; },
+                       [](double x) { return x / 10; }, [](double) { return NAN; });
+  ColumnList<std::pair<int, double>> list;
+  list.add_of(std::move(part).columns(), &std::pair<int, double>::second, "its_");
+  const auto columns = std::move(list).columns();
+  const std::pair<int, double> row{1, 2.34567};
+  ASSERT_EQ(columns.size(), 3U);
+  EXPECT_EQ(columns[0].name, "its_x_kPa");
+  EXPECT_EQ(columns[1].name, "its_x_kPa_error");
+  EXPECT_EQ(columns[2].name, "its_x_kPa_common_error");
+  EXPECT_EQ(std::get<double>(printed_value(columns[0], columns[0].value(row))), 2.35);
+  EXPECT_FALSE(has_value(columns[2].value(row)));
 }
 
 TEST(EventColumns, AreThoseOfWhatIsKnown) {

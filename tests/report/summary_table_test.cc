@@ -8,7 +8,10 @@
 #include <iterator>
 #include <thread>
 
+#include "case/split.h"
+#include "case/user_error.h"
 #include "measurement/recording_writer.h"
+#include "report/former_names.h"
 
 namespace rheocyte::summary_table_test {
 namespace {
@@ -60,10 +63,38 @@ TEST(SummaryTable, CallsAtTheSameTimeLeaveTheLinesOfAll) {
   EXPECT_EQ(std::ranges::count(text, '\n'), calls + 1) << text;
 }
 
+TEST(SummaryTable, ColumnsOfFormerNamesKeepTheirValuesUnderThePresentOnes) {
+  const auto text = summary_table(std::vector<SummaryLine>{},
+                                  "recording\tevents\tvalid\tflow_rate_ul_s\tyoung_modulus_median_error_kPa\nx.rtdc\t5\t2\t0.04\t0.7\n");
+  const auto lines = split(text, '\n');
+  const auto names = split(lines.at(0), '\t'), cells = split(lines.at(1), '\t');
+  ASSERT_EQ(names.size(), cells.size());
+  const auto cell = [&](std::string_view name) {
+    const auto at = std::ranges::find(names, name);
+    return at == names.end() ? "no such column" : std::string(cells[std::size_t(at - names.begin())]);
+  };
+  EXPECT_EQ(cell("flow_rate_ul_per_s"), "0.04");
+  EXPECT_EQ(cell("young_modulus_median_kPa_error"), "0.7");
+  for (const FormerName& name : former_names()) EXPECT_EQ(cell(name.former), "no such column") << name.former;
+}
+
+TEST(SummaryTable, OneThatTheVersionBeforeHasWrittenIsCompletedAndOtherFilesStay) {
+  const test::ScratchFolder folder;
+  const auto place = folder / "rheocyte_summary.tsv";
+  const auto write = [&](const char* text) { std::ofstream(place) << text; };
+  const std::vector<SummaryLine> lines{line_of("a.rtdc", 1)};
+  write("recording\tevents\tvalid\tremarks\nx.rtdc\t5\t2\tOld.\n");
+  add_to_summary(place, lines);
+  add_to_summary(place, lines);
+  write("recording\tmy own notes\n");
+  EXPECT_THROW(add_to_summary(place, lines), UserError);
+}
+
 TEST(SummaryTable, LinesOfAnOlderVersionKeepWhatTheirColumnsHold) {
   const auto text =
       summary_table(std::vector<SummaryLine>{}, "recording\tevents\tvalid\tformer\tremarks\nx.rtdc\t5\t2\tno\tOld.\n");
-  EXPECT_NE(text.find("\nx.rtdc\t5\t2\t"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nx.rtdc\t"), std::string::npos) << text;
+  EXPECT_NE(text.find("\t5\t2\t"), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("\tOld.\n")) << text;
   EXPECT_EQ(text.find("former"), std::string::npos);
 }
