@@ -242,6 +242,24 @@ def test_what_is_recommended_is_the_same_wherever_it_stands(program, tmp_path):
     assert events["young_modulus_kPa"].median() < 0.9 * recommended["young_modulus_median_kPa"]
 
 
+def test_results_of_the_same_settings_have_one_hash(program, tmp_path):
+    """In the frame, the summary, the table of events and the log of the companion; not that of another table, viscosity or gate."""
+    h5py = pytest.importorskip("h5py")
+    for seed in (1, 2):
+        rheocyte.synth(CELLS, tmp_path / f"{seed}.rtdc", recording__seed=seed)
+    one, other = (rheocyte.extract(tmp_path / f"{seed}.rtdc").attrs["settings_hash"] for seed in (1, 2))
+    assert one == other and len(one) == 16
+    subprocess.run([program, "extract", "1.rtdc", "-o", "out", "--quiet"], cwd=tmp_path, check=True)
+    assert pandas.read_csv(tmp_path / "out/rheocyte_summary.tsv", sep="\t", dtype=str)["settings_hash"].tolist() == [one]
+    assert f"\n# settings hash: {one}\n" in (tmp_path / "out/1_rheocyte.tsv").read_text(encoding="utf-8")
+    with h5py.File(tmp_path / "out/1_rheocyte.rtdc") as companion:
+        assert f"settings hash: {one}" in [line.decode() for line in companion["logs/rheocyte-extract"]]
+    hashes = {rheocyte.extract(tmp_path / "1.rtdc", **settings).attrs["settings_hash"]
+              for settings in ({}, {"viscosity_mPas": 6}, {"table": "LE-2D-26"}, {"min": {"area_um": 50}}, {"min": {"area_um": 51}},
+                               {"no_asymmetry": True})}
+    assert one in hashes and len(hashes) == 6
+
+
 def test_a_temperature_fills_what_is_missing(tmp_path):
     """Of single events whose own is 0, and of a recording without any."""
     h5py = pytest.importorskip("h5py")
@@ -310,7 +328,7 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     assert rheocyte.synth(spec, tmp_path / "cells.rtdc") > 50
     fractions = []
     frame = rheocyte.moduli(tmp_path / "cells.rtdc", folder, progress=fractions.append)
-    assert fractions[-1] == 1 and frame.attrs["settings"]
+    assert fractions[-1] == 1 and f"settings hash: {frame.attrs['settings_hash']}" in frame.attrs["settings"]
     assert any("the channel is that of the table" in line for line in frame.attrs["warnings"])
     subprocess.run([program, "moduli", "cells.rtdc", "--table", "combined", "--section", "tube", "--quiet"], cwd=tmp_path, check=True)
     written = pandas.read_csv(tmp_path / "cells_moduli.tsv", sep="\t", comment="#").drop(columns="event")
