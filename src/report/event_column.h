@@ -58,6 +58,11 @@ class BlockValues {
   std::vector<std::span<const double>> values_;
 };
 
+/// The number of an event; of a flag what it says.
+inline CellValue cell_value(const ColumnDescription& column, double number) {
+  return column.is_flag ? CellValue(number != 0) : CellValue(number);
+}
+
 /// Without their values.
 template <class Block>
 std::vector<ColumnDescription> descriptions(const ColumnsOf<Block>& columns) {

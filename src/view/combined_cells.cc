@@ -5,6 +5,7 @@
 
 #include "case/write_case.h"
 #include "report/moduli_columns.h"
+#include "report/rows_json.h"
 #include "view/event_json.h"
 #include "view/model_outline.h"
 
@@ -32,7 +33,7 @@ Json numbers_of(const ModuliEstimate& e) {
   const auto numbers = values.of(block);
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (const ColumnDescription& column = values.columns()[k]; column.words.empty())
-      j[column.name] = number_or_null(numbers[k][0]);
+      j[column.name] = value_json(column, numbers[k][0]);
   return j;
 }
 

@@ -56,7 +56,7 @@ Json table_conditions(const std::string& identifier, const std::string& model, c
            {{"table", identifier},
             {"model", model},
             {"channel_width_um", flow.width_um},
-            {"flow_rate_ul_s", flow.rate_ul_s},
+            {"flow_rate_ul_per_s", flow.rate_ul_s},
             {"viscosity_mPas", flow.viscosity_mPas},
             {"flow_exponent", flow.exponent}}}};
 }
@@ -83,7 +83,7 @@ Json paths_json(std::span<const fs::path> paths) {
 Json stated_conditions(const Metadata& metadata) {
   Json conditions;
   for (const auto& [name, key] :
-       {std::pair("channel_width_um", "setup:channel width"), std::pair("flow_rate_ul_s", "setup:flow rate"),
+       {std::pair("channel_width_um", "setup:channel width"), std::pair("flow_rate_ul_per_s", "setup:flow rate"),
         std::pair("temperature_C", "setup:temperature"), std::pair("pixel_um", "imaging:pixel size")}) {
     const auto number = metadata.number(key);
     conditions[name] = number ? Json(*number) : Json();

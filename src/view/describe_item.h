@@ -15,7 +15,7 @@ nlohmann::ordered_json describe_item(const ItemPlace&);
 
 nlohmann::ordered_json paths_json(std::span<const std::filesystem::path> paths);
 
-/// {"channel_width_um", "flow_rate_ul_s", "medium", "temperature_C", "pixel_um", "region", "sample", "date",
+/// {"channel_width_um", "flow_rate_ul_per_s", "medium", "temperature_C", "pixel_um", "region", "sample", "date",
 /// "run"}, as the metadata says; null where it says nothing.
 nlohmann::ordered_json stated_conditions(const Metadata&);
 

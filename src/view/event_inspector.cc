@@ -14,6 +14,7 @@
 #include "extract/extraction.h"
 #include "measurement/event_outlines.h"
 #include "report/event_columns.h"
+#include "report/rows_json.h"
 #include "serve/grey_png.h"
 #include "shape/outline_shape.h"
 #include "view/combined_cells.h"
@@ -146,11 +147,6 @@ Json combined_json(CombinedCell cell, const Eigen::MatrixX2d& outline, int direc
 
 double first_of(std::span<const double> values) { return values.empty() ? NAN : values[0]; }
 
-Json value_json(const ColumnDescription& column, double value) {
-  if (!column.words.empty()) return column.words[std::size_t(value)];
-  return column.is_flag ? Json(value != 0) : number_or_null(value);
-}
-
 /// Of all columns, null where nothing is known.
 void add_columns(const Extraction& extraction, const EventBlock& block, Json& j) {
   for (const auto& column : event_columns({true, true, true, ElongatedBy::modes}))
@@ -158,7 +154,7 @@ void add_columns(const Extraction& extraction, const EventBlock& block, Json& j)
   BlockValues<EventBlock> values(event_columns(extraction.knowledge()));
   const auto numbers = values.of(block);
   for (std::size_t k = 0; k < numbers.size(); ++k)
-    j[values.columns()[k].name] = value_json(values.columns()[k], numbers[k][0]);
+    j[values.columns()[k].name] = value_json(values.columns()[k], cell_value(values.columns()[k], numbers[k][0]));
 }
 
 /// What is to be said of the modulus.

@@ -19,7 +19,7 @@ function conditionsOf(item: Item): string {
     typeof given[name] === 'number' ? `${Number((given[name] as number).toPrecision(4))} ${unit}` : '';
   return [
     number('channel_width_um', 'µm'),
-    number('flow_rate_ul_s', 'µl/s'),
+    number('flow_rate_ul_per_s', 'µl/s'),
     typeof given.medium === 'string' ? given.medium : '',
     number('temperature_C', '°C'),
   ]
