@@ -17,7 +17,7 @@ using namespace rheocyte;
 
 void report(const char* file) {
   const Recording recording(file);
-  const auto feature_of_error = recording.metadata().text("user:rheocyte standard error");
+  const auto feature_of_error = recording.metadata().text("user:rheocyte young_modulus_kPa_error");
   const auto modulus = column(recording, "emodulus"), error = column(recording, feature_of_error.value_or("").c_str()),
              truth = column(recording, "userdef2"), deformation = column(recording, "userdef4");
   std::vector<double> bias, fraction, depth;

@@ -6,33 +6,32 @@ namespace rheocyte {
 
 std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
   const bool by_modes = by == ElongatedBy::modes;
-  const std::string word = by_modes ? "asymmetry" : "inertia";
   using B = ElongationBlock;
-  return {
-      {{fmt::format("young_modulus_{}_kPa", word), "kPa", "E as of an elongated cell",
+  const std::string modulus = fmt::format("young_modulus_{}_kPa", by_modes ? "asymmetry" : "inertia");
+  std::vector<ElongationColumn> columns{
+      {{modulus, "kPa", "E as of an elongated cell",
         by_modes
             ? "Young's modulus (kPa) from area, elongation (mode c2) and asymmetry (c3) of the outline, of a solid "
               "that the liquid draws out, see docs/real-cells.md"
             : "Young's modulus (kPa) from area, deformation and inertia ratio, of a solid that the liquid draws "
-              "out, see docs/real-cells.md",
-        fmt::format("young_modulus_{}", word)},
+              "out, see docs/real-cells.md"},
        &B::modulus_kPa},
-      {{fmt::format("young_modulus_{}_kPa_error", word), "kPa", "Standard error of E as of an elongated cell",
-        fmt::format("standard error of young_modulus_{} (kPa)", word), fmt::format("standard error {}", word)},
+      {{modulus + "_error", "kPa", "Standard error of E as of an elongated cell", "standard error of " + modulus},
        &B::standard_error_kPa},
       {{"elongation", "", "Elongation by the axial tension",
-        "length over width that the liquid's tension alone would give the cell", "elongation"},
+        "length over width that the liquid's tension alone would give the cell"},
        &B::elongation},
       {{"axial_tension_Pa", "Pa", "Axial tension of the liquid",
-        "tension of the liquid along the flow (Pa) that elongates the cell so", "axial_tension"},
+        "tension of the liquid along the flow (Pa) that elongates the cell so"},
        &B::axial_tension_Pa},
-      {{"elongation_error", "", "Standard error of the elongation", "standard error of elongation", "elongation error"},
+      {{"elongation_error", "", "Standard error of the elongation", "standard error of elongation"},
        &B::elongation_error,
        true},
-      {{"axial_tension_Pa_error", "Pa", "Standard error of the axial tension", "standard error of axial_tension (Pa)",
-        "axial tension error"},
+      {{"axial_tension_Pa_error", "Pa", "Standard error of the axial tension", "standard error of axial_tension_Pa"},
        &B::axial_tension_error_Pa,
        true}};
+  for (ElongationColumn& column : columns) column.role = column.name;
+  return columns;
 }
 
 }  // namespace rheocyte

@@ -69,10 +69,4 @@ std::vector<ColumnDescription> descriptions(const ColumnsOf<Block>& columns) {
   return {columns.begin(), columns.end()};
 }
 
-/// The name that a role is as a feature of the view.
-inline std::string feature_of_role(std::string role) {
-  std::ranges::replace(role, ' ', '_');
-  return role;
-}
-
 }  // namespace rheocyte

@@ -66,7 +66,7 @@ ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
   if (known.errors)
     columns.push_back(
         {{"young_modulus_kPa_error", "kPa", "Standard error of E",
-          "standard error of emodulus (kPa), of pixels, table and inertia", "standard error", rank_of_error},
+          "standard error of emodulus (kPa), of pixels, table and inertia", "young_modulus_kPa_error", rank_of_error},
          stored(&B::standard_error_kPa)});
   columns.push_back({{.name = "state",
                       .label = "State of the modulus",

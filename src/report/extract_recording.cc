@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "case/json_guard.h"
 #include "case/user_error.h"
 #include "events/companion_origin.h"
@@ -61,8 +64,8 @@ class Writers {
   /// What has no place in the companion and would be missed there; empty if everything has.
   std::string missing() const {
     std::string roles;
-    for (const auto& role : companion_.missing())
-      if (role == "state" || role == "standard error") roles += (roles.empty() ? "" : " and ") + role;
+    for (const auto& [role, word] : {std::pair("state", "state"), std::pair("young_modulus_kPa_error", "standard error")})
+      if (std::ranges::count(companion_.missing(), role) > 0) roles.append(roles.empty() ? "" : " and ").append(word);
     if (roles.empty()) return {};
     return fmt::format(
         "the recording uses so many of userdef0 to userdef9 itself that {} of the moduli {} in the table "

@@ -6,7 +6,7 @@
 namespace rheocyte {
 
 std::span<const FormerName> former_names() {
-  static constexpr std::array<FormerName, 21> names{{
+  static constexpr std::array<FormerName, 29> names{{
       // of summaries
       {"recommended_young_modulus_median_error_kPa", "recommended_young_modulus_median_kPa_error"},
       {"recommended_young_modulus_common_error_kPa", "recommended_young_modulus_median_kPa_common_error"},
@@ -30,6 +30,15 @@ std::span<const FormerName> former_names() {
       {"cortex_modulus_error_mN_per_m", "cortex_modulus_mN_per_m_error"},
       {"tension_error_mN_per_m", "tension_mN_per_m_error"},
       {"stiffness_error_kPa", "stiffness_kPa_error"},
+      // roles in companions
+      {"standard error", "young_modulus_kPa_error"},
+      {"young_modulus_asymmetry", "young_modulus_asymmetry_kPa"},
+      {"young_modulus_inertia", "young_modulus_inertia_kPa"},
+      {"standard error asymmetry", "young_modulus_asymmetry_kPa_error"},
+      {"standard error inertia", "young_modulus_inertia_kPa_error"},
+      {"axial_tension", "axial_tension_Pa"},
+      {"elongation error", "elongation_error"},
+      {"axial tension error", "axial_tension_Pa_error"},
   }};
   return names;
 }

@@ -1,4 +1,4 @@
-// Names of columns in files of the version before, which this one still reads.
+// Names of columns, and their roles in companions, in files of the version before, which this one still reads.
 #pragma once
 #include <span>
 #include <string_view>

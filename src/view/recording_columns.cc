@@ -9,6 +9,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "report/event_columns.h"
+#include "report/former_names.h"
 #include "report/moduli_columns.h"
 
 namespace rheocyte {
@@ -45,14 +46,24 @@ void append(std::span<const double> values, std::string& bytes) {
   }
 }
 
+/// Also of a companion that the version before has written; empty if there is none.
+std::string feature_with_role(const Recording& companion, const std::string& role) {
+  const auto named = [&](std::string_view word) {
+    return companion.metadata().text(fmt::format("user:rheocyte {}", word)).value_or("");
+  };
+  std::string feature = named(role);
+  for (const FormerName& name : former_names())
+    if (feature.empty() && name.present == role) feature = named(name.former);
+  return feature;
+}
+
 }  // namespace
 
 std::vector<ComputedColumn> computed_columns(const Recording& companion) {
   std::vector<ComputedColumn> columns;
   for (const ColumnDescription& column : companion_columns()) {
-    const auto named = companion.metadata().text("user:rheocyte " + column.role);
-    const std::string feature = column.rank == 0 ? column.role : named.value_or("");
-    if (companion.has_scalar(feature)) columns.push_back({feature_of_role(column.role), feature});
+    const std::string feature = column.rank == 0 ? column.role : feature_with_role(companion, column.role);
+    if (companion.has_scalar(feature)) columns.push_back({column.role, feature});
   }
   return columns;
 }
@@ -61,7 +72,7 @@ std::vector<ColumnDescription> computed_features() {
   std::vector<ColumnDescription> features = companion_columns();
   const auto of_moduli = descriptions(moduli_features());
   features.insert(features.end(), of_moduli.begin(), of_moduli.end());
-  for (ColumnDescription& feature : features) feature.name = feature_of_role(feature.role);
+  for (ColumnDescription& feature : features) feature.name = feature.role;
   return features;
 }
 

@@ -112,7 +112,7 @@ TEST_F(OwnTable, ARecordingsOwnUserFeaturesStayVisibleAndOursAreNamed) {
   const Recording companion(file);
   const auto name_of = [&](const std::string& role) { return companion.metadata().text("user:rheocyte " + role); };
   EXPECT_EQ(name_of("state"), "userdef2");
-  EXPECT_EQ(name_of("standard error"), "userdef4");
+  EXPECT_EQ(name_of("young_modulus_kPa_error"), "userdef4");
   EXPECT_EQ(column(file, "userdef2"), (std::vector<double>{0, 2, 3, 4, 5, 1, 8}));
   EXPECT_GT(column(file, "userdef4")[0], 0);
 }

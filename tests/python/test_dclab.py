@@ -185,7 +185,7 @@ def test_a_companion_is_complete_without_its_recording(program, recorded, tmp_pa
         features = rheocyte.features(np.array(dataset["mask"][:len(dataset)]), dataset.config["imaging"]["pixel size"])
     moved.unlink()
     with dclab.new_dataset(tmp_path / "cells_rheocyte.rtdc") as dataset:
-        named = dataset.config["user"]["rheocyte standard error"]
+        named = dataset.config["user"]["rheocyte young_modulus_kPa_error"]
         assert {"emodulus", "area_um", "deform", named} <= set(dataset.features_innate)
         for name in ("volume", "inert_ratio_cvx", "inert_ratio_prnc", "inert_ratio_raw"):
             same(np.array(dataset[name]), features[name].to_numpy())

@@ -123,7 +123,7 @@ class RecordingInTheView(unittest.TestCase):
 
     def test_columns_and_moduli_are_those_of_extract(self):
         self.assertEqual(self.moduli["state"], "ready", self.moduli)
-        area, modulus, error = self.columns("area_um", "emodulus", "standard_error")
+        area, modulus, error = self.columns("area_um", "emodulus", "young_modulus_kPa_error")
         for column, name in ((area, "area_um2"), (modulus, "young_modulus_kPa"), (error, "young_modulus_kPa_error")):
             wanted = single(float(text) for text in self.rows[name])
             self.assertEqual([repr(x) for x in single(column)], [repr(x) for x in wanted])

@@ -62,11 +62,11 @@ void expect_the_numbers_of_extract(const std::filesystem::path& file, const test
       return value[0];
     };
     for (const auto& [key, name] :
-         {std::pair("young_modulus_kPa", "emodulus"), std::pair("young_modulus_kPa_error", "standard_error"),
+         {std::pair("young_modulus_kPa", "emodulus"), std::pair("young_modulus_kPa_error", "young_modulus_kPa_error"),
           std::pair("shape_excess", "shape_excess"),
-          std::pair("young_modulus_asymmetry_kPa", "young_modulus_asymmetry"),
-          std::pair("young_modulus_inertia_kPa", "young_modulus_inertia"),
-          std::pair("axial_tension_Pa", "axial_tension")})
+          std::pair("young_modulus_asymmetry_kPa", "young_modulus_asymmetry_kPa"),
+          std::pair("young_modulus_inertia_kPa", "young_modulus_inertia_kPa"),
+          std::pair("axial_tension_Pa", "axial_tension_Pa")})
       if (columns.has(name)) {
         expect_equal(told[key], in_companion(name), key);
         expect_equal(told["features"][name], in_companion(name), name);

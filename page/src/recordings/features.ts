@@ -60,7 +60,7 @@ export function labelOf(feature: string): string {
 
 export const youngModulus = 'emodulus';
 /** Young's moduli of solids, from deformation or as of elongated cells: what is recommended is one of them. */
-export const isYoungModulus = (feature: string): boolean => feature === youngModulus || feature.startsWith('young_modulus_');
+export const isYoungModulus = (feature: string): boolean => feature === youngModulus || /^young_modulus_.*_kPa$/.test(feature);
 /** A modulus that the recording brings along: of another program, or of a companion that is opened as a recording. */
 export const storedModulus = 'emodulus_stored';
 /** What the program computes with the moduli; all else is in the file. */
