@@ -52,8 +52,8 @@ def described(name, file):
     error = 1.2533 * (high - low) / 1.349 / np.sqrt(len(modulus)) if len(modulus) else np.nan
     return {"recording": name, **recommended(events, file), "events": len(events),
             "with_modulus_from_deformation": len(modulus), "deformation_median_kPa": median,
-            "deformation_median_error_kPa": error, "deformation_lower_quartile_kPa": low,
-            "deformation_upper_quartile_kPa": high, "without_moduli_because": "" if len(modulus) else why_none(events, file)}
+            "deformation_median_kPa_error": error, "deformation_first_quartile_kPa": low,
+            "deformation_third_quartile_kPa": high, "without_moduli_because": "" if len(modulus) else why_none(events, file)}
 
 
 def draw_recommended(axes, table):
@@ -71,7 +71,7 @@ def report(job):
     table.to_csv(job.output.table, sep="\t", index=False, float_format="%.6g")
     figure, axes = plt.subplots(figsize=(7, 1.8 + 0.4 * len(table)), layout="constrained")
     rows = np.arange(len(table))
-    axes.hlines(rows, table["deformation_lower_quartile_kPa"], table["deformation_upper_quartile_kPa"], linewidth=5,
+    axes.hlines(rows, table["deformation_first_quartile_kPa"], table["deformation_third_quartile_kPa"], linewidth=5,
                 color="0.7", alpha=0.5, zorder=1)
     axes.plot(table["deformation_median_kPa"], rows, "|", color="0.4", markersize=9, zorder=1,
               label="from deformation: median and quartiles")

@@ -30,7 +30,7 @@ def test_a_folder_of_recordings_becomes_a_report(program, tmp_path):
     assert ended.returncode == 0, ended.stdout + ended.stderr
     report = pandas.read_csv(tmp_path / "out/report.tsv", sep="\t")
     assert list(report["recording"]) == ["a", "day 1/b"]
-    assert ((report["deformation_median_kPa"] - [1.0, 1.5]).abs() < 5 * report["deformation_median_error_kPa"]).all()
+    assert ((report["deformation_median_kPa"] - [1.0, 1.5]).abs() < 5 * report["deformation_median_kPa_error"]).all()
     for place, (_, line) in zip(("out", "out/day 1"), report.iterrows()):
         summary = pandas.read_csv(tmp_path / place / "rheocyte_summary.tsv", sep="\t").iloc[0]
         recommended = [name for name in summary.index if name.startswith("recommended_")]
