@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "app/analytic_conditions.h"
+#include "case/physical_scales.h"
 
 namespace rheocyte {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "case/problem.h"
+#include "case/choices.h"
 
 namespace rheocyte {
 
@@ -45,28 +45,6 @@ struct Flow {
   double density_kg_per_m3 = 0;
   double axial_tension_Pa = 0;
 };
-
-/// The law of the liquid in SI units; a floor of shear rates stays relative to U/R.
-inline Liquid liquid_of(const Flow& flow) {
-  Liquid liquid;
-  liquid.law = flow.law;
-  switch (flow.law) {
-    case LiquidLaw::newtonian: liquid.viscosity = 1e-3 * flow.viscosity_mPas.value(); break;
-    case LiquidLaw::power_law:
-      liquid.viscosity = flow.consistency_Pa_sn.value();
-      liquid.exponent = flow.exponent.value();
-      liquid.shear_rate_floor = flow.shear_rate_floor.value();
-      break;
-    case LiquidLaw::carreau:
-      liquid.viscosity = 1e-3 * flow.zero_shear_viscosity_mPas.value();
-      liquid.infinite_viscosity = 1e-3 * flow.infinite_shear_viscosity_mPas.value();
-      liquid.relaxation_time = 1e-3 * flow.relaxation_time_ms.value();
-      liquid.exponent = flow.exponent.value();
-      liquid.yasuda_exponent = flow.yasuda_exponent.value();
-      break;
-  }
-  return liquid;
-}
 
 /// The interior of the cell.
 struct BulkCase {

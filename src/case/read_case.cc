@@ -11,6 +11,7 @@
 #include "case/case_text.h"
 #include "case/check_duct.h"
 #include "case/key_reading.h"
+#include "case/problem.h"
 #include "case/scales.h"
 #include "laws/wall_profile.h"
 

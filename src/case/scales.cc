@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "case/problem.h"
 #include "laws/developed_flow.h"
 
 namespace rheocyte {
@@ -38,6 +39,27 @@ double undisturbed_rate(const Case& c, const Liquid& liquid, double area) {
 }
 
 }  // namespace
+
+Liquid liquid_of(const Flow& flow) {
+  Liquid liquid;
+  liquid.law = flow.law;
+  switch (flow.law) {
+    case LiquidLaw::newtonian: liquid.viscosity = 1e-3 * flow.viscosity_mPas.value(); break;
+    case LiquidLaw::power_law:
+      liquid.viscosity = flow.consistency_Pa_sn.value();
+      liquid.exponent = flow.exponent.value();
+      liquid.shear_rate_floor = flow.shear_rate_floor.value();
+      break;
+    case LiquidLaw::carreau:
+      liquid.viscosity = 1e-3 * flow.zero_shear_viscosity_mPas.value();
+      liquid.infinite_viscosity = 1e-3 * flow.infinite_shear_viscosity_mPas.value();
+      liquid.relaxation_time = 1e-3 * flow.relaxation_time_ms.value();
+      liquid.exponent = flow.exponent.value();
+      liquid.yasuda_exponent = flow.yasuda_exponent.value();
+      break;
+  }
+  return liquid;
+}
 
 double tube_radius_um(const Case& c) {
   if (const WallTable wall = wall_um(c.channel.profile); !wall.is_straight())

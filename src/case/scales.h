@@ -1,9 +1,13 @@
 // From physical units to the dimensionless problem (docs/theory.md, eq:scales).
 #pragma once
 #include "case/case.h"
-#include "case/unit.h"
+#include "case/physical_scales.h"
 
 namespace rheocyte {
+
+struct Liquid;
+struct Problem;
+struct WallTable;
 
 /// A square channel of width L and a tube of radius 0.547 L have the same pressure drop (Mokbel et al. 2017).
 inline constexpr double tube_radius_per_channel_width = 0.547;
@@ -53,6 +57,9 @@ double unit_time_s(const Case&, double length_factor, double rate_ul_s);
 
 /// pi R^2 U, the unit of flow rates.
 double unit_rate_ul_per_s(const Scales&);
+
+/// The law of the liquid in SI units; a floor of shear rates stays relative to U/R.
+Liquid liquid_of(const Flow&);
 
 /// The dimensionless groups of a complete case.
 Problem problem_of(const Case&);

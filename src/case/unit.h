@@ -5,11 +5,11 @@
 #include <numbers>
 #include <string_view>
 
-#include "case/problem.h"
+#include "case/physical_scales.h"
 
 namespace rheocyte {
 
-/// Exponents of the units of the dimensionless problem, R, U and S of case/problem.h, in a quantity.
+/// Exponents of the units of the dimensionless problem, R, U and S of case/physical_scales.h, in a quantity.
 struct Dimension {
   int length = 0, velocity = 0, stress = 0;
   bool operator==(const Dimension&) const = default;

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "case/problem.h"
+#include "case/choices.h"
 
 namespace rheocyte {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "case/problem.h"
+#include "case/choices.h"
 #include "events/gate_options.h"
 
 namespace rheocyte {

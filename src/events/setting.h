@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "case/choices.h"
 #include "case/key.h"
-#include "case/problem.h"
 
 namespace rheocyte {
 

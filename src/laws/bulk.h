@@ -2,11 +2,9 @@
 #pragma once
 #include <cmath>
 
-namespace rheocyte {
+#include "laws/choices.h"
 
-/// `linear` is the Euler-Almansi law of Mokbel et al. 2017, the pure c2 member of the Mooney-Rivlin family;
-/// `neo_hookean` is the pure c1 member. `none`: no elastic interior but a liquid at rest, a pure shell.
-enum class BulkLaw { linear, neo_hookean, mooney_rivlin, none };
+namespace rheocyte {
 
 struct Bulk {
   BulkLaw law = BulkLaw::neo_hookean;

@@ -3,14 +3,10 @@
 // Each law is an energy; tensions (laws/surface_form.h) are its derivatives. Stretches: l1 = ds/ds0 along
 // the meridian, l2 = r/r0' in the hoop direction. Moduli and tensions in units of S R, bending stiffness of S R^3.
 #pragma once
+#include "laws/choices.h"
 #include "laws/constant.h"
 
 namespace rheocyte {
-
-/// Elastic laws of the cell's surface: `linear`, `thin_shell`, `neo_hookean` are those of Mokbel et al. 2017;
-/// `neo_hookean_reference` is the usual membrane law with its energy per reference area, `skalak` that of red blood
-/// cells' membranes with C = 1, which stiffens where the others soften.
-enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_reference, skalak };
 
 struct Cortex {
   CortexLaw law = CortexLaw::none;

@@ -5,9 +5,9 @@
 #pragma once
 #include <cmath>
 
-namespace rheocyte {
+#include "laws/choices.h"
 
-enum class LiquidLaw { newtonian, power_law, carreau };
+namespace rheocyte {
 
 struct Liquid {
   LiquidLaw law = LiquidLaw::newtonian;

@@ -8,12 +8,14 @@
 #include <tuple>
 #include <vector>
 
-#include "case/problem.h"
+#include "case/physical_scales.h"
 #include "numeric/no_value.h"
 #include "result/field.h"
 #include "solve/transient.h"
 
 namespace rheocyte {
+
+struct Problem;
 
 /// A row of history.csv; physical units.
 struct HistoryRow {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/case_keys.h"
+#include "laws/media.h"
 
 namespace rheocyte {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "case/problem.h"
-
 namespace rheocyte {
+
+struct Media;
 
 /// Why the solver stopped. Starts as `not_started`: success has to be said, never assumed.
 enum class Status {

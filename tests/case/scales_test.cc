@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "case/problem.h"
 #include "case/read_case.h"
 
 namespace rheocyte::scales_test {

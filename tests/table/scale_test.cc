@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "case/case_keys.h"
+#include "case/problem.h"
 #include "case/scales.h"
 #include "case/write_case.h"
 

@@ -8,6 +8,7 @@
 
 #include "../refusal.h"
 #include "case/case_text.h"
+#include "case/problem.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "case/write_case.h"

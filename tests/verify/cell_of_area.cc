@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "case/problem.h"
 #include "laboratory.h"
 
 namespace rheocyte::test {

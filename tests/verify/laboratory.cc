@@ -1,5 +1,6 @@
 #include "laboratory.h"
 
+#include "case/problem.h"
 #include "case/scales.h"
 
 namespace rheocyte::test {
