@@ -4,7 +4,7 @@ import re
 
 from help_texts import entries, help_of, sections
 from restructured_text import code, contents, entry, indented, sentence, table_of_links, title
-from stubs import Module, decorators, docstring, groups, modules, named, names_of
+from stubs import Module, declarations, decorators, docstring, groups, modules, named, names_of
 
 # A line of a docstring on an argument: its name, two blanks or more, its meaning.
 ARGUMENT = re.compile(r"(\S+(?: \S+)*?) {2,}(\S.*)")
@@ -85,7 +85,7 @@ def class_text(module, name):
     body = documentation(docstring(written))
     members = dict.fromkeys(each for node in declared.body for each in names_of(node) if not each.startswith("_"))
     for member in members:
-        body += member_text(module, named(declared.body, member), (named(written.body, member) or [None])[-1])
+        body += member_text(module, declarations(declared.body, member), (named(written.body, member) or [None])[-1])
     return directive("class", [name + (module.signature(started[0]) if started else "")], body)
 
 

@@ -1,4 +1,4 @@
-"""What the type stubs of the Python package declare and what its sources say about it, read without importing either."""
+"""What the Python package declares, in stubs or in its sources, and what its sources say about it, read without importing either."""
 import ast
 import re
 
@@ -11,12 +11,13 @@ class Module:
         stub = package / f"{name}.pyi"
         self.stub_text = stub.read_text(encoding="utf-8") if stub.exists() else self.source_text
         self.source, self.stub = ast.parse(self.source_text), ast.parse(self.stub_text)
-        self.aliases = {node.targets[0].id: node.value for node in self.stub.body
-                        if isinstance(node, ast.Assign) and node.targets[0].id.startswith("_")}
+        self.aliases = {node.targets[0].id: node.value for node in ast.walk(self.stub)
+                        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+                        and node.targets[0].id.startswith("_")}
 
     def declared(self, name):
         """The declarations of this name in the stub: several of an overloaded function."""
-        return named(self.stub.body, name)
+        return declarations(self.stub.body, name)
 
     def written(self, name):
         """The definition of this name in the source."""
@@ -71,6 +72,13 @@ def named(statements, name):
     return [node for node in statements if name in names_of(node)]
 
 
+def declarations(statements, name):
+    """Those of this name; of an overloaded function not the one that does the work."""
+    nodes = named(statements, name)
+    overloads = [node for node in nodes if isinstance(node, ast.FunctionDef) and "overload" in decorators(node)]
+    return overloads or nodes
+
+
 def decorators(function):
     return {ast.unparse(decorator) for decorator in function.decorator_list}
 
@@ -87,13 +95,16 @@ def docstring(node):
 def groups(package):
     """Headings of the package's documentation with their public names, and its other paragraphs."""
     text = ast.get_docstring(ast.parse((package / "__init__.py").read_text(encoding="utf-8")))
-    first, listed, *others = text.split("\n\n")
-    found = dict(re.split(r"\s{2,}", line, maxsplit=1) for line in listed.splitlines())
-    return first, {heading: re.sub(r" \([^)]*\)", "", names).split(", ") for heading, names in found.items()}, others
+    first, _, *others = text.split("\n\n")
+    return first, {group: re.findall(r" as (\w+)$", names, re.M) for group, names in listed(package)}, others
+
+
+def listed(package):
+    """(group, lines) of the list of public names."""
+    return re.findall(r"^# (.+)\n((?:from .*\n)+)", (package / "__init__.pyi").read_text(encoding="utf-8"), re.M)
 
 
 def modules(package):
-    """{public name: module} by the stub of the package."""
-    stub = ast.parse((package / "__init__.pyi").read_text(encoding="utf-8"))
-    return {alias.name: node.module.removeprefix("rheocyte.") for node in stub.body
-            if isinstance(node, ast.ImportFrom) for alias in node.names}
+    """{public name: module}"""
+    return {name: module for _, lines in listed(package)
+            for module, name in re.findall(r"^from rheocyte\.(\w+) import (\w+) as", lines, re.M)}

@@ -1,35 +1,25 @@
 """Cells in the channel of real-time deformability cytometry (RT-DC): shapes, tables, Young's moduli.
 
-Solve a cell          Case, solve, Session, Result, evolve
-Tables                Table, table, table_names, viscosity, STATES
-Recordings            extract, moduli, time_course, features, synth, dclab_plugin
-Populations           population, Population, plan
-Small deformations    analytic
-Mistakes              UserError (a ValueError), NoStateError
-Keys of a case        case_keys
+{names}
 
-Lengths are in um, areas in um2, velocities in m/s, pressures in Pa, Young's moduli in kPa, moduli of a cortex in mN/m:
-every name carries its unit. `help(rheocyte.solve)` and docs/python.md tell more.
+UserError is a ValueError. Lengths are in um, areas in um2, velocities in m/s, pressures in Pa, Young's moduli in kPa, moduli of a
+cortex in mN/m: every name carries its unit. `help(rheocyte.solve)` and docs/python.md say more.
 
 Names are loaded when they are first used. Without the compiled module the pictures of `rheocyte.picture` and its
 neighbours, which need numpy and matplotlib only, work all the same.
 """
 
 import importlib
+import re
+from pathlib import Path
 
-_MODULES = {
-    "Case": "cases", "case_keys": "cases",
-    "Result": "states", "Session": "states", "solve": "states",
-    "Evolution": "in_time", "evolve": "in_time",
-    "STATES": "stiffness_tables", "Table": "stiffness_tables", "table_names": "stiffness_tables",
-    "dclab_plugin": "stiffness_tables", "table": "stiffness_tables", "viscosity": "stiffness_tables",
-    "extract": "recordings", "features": "recordings", "moduli": "recordings", "synth": "recordings",
-    "time_course": "recordings",
-    "Population": "populations", "plan": "populations", "population": "recordings",
-    "analytic": "analytical_model",
-    "NoStateError": "errors", "UserError": "errors",
-}
+# The list for type checkers is ours, too: a function is declared there once.
+_GROUPS = {group: {name: module for module, name in re.findall(r"^from rheocyte\.(\w+) import (\w+) as", lines, re.M)}
+           for group, lines in re.findall(r"^# (.+)\n((?:from .*\n)+)",
+                                          Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"), re.M)}
+_MODULES = {name: module for names in _GROUPS.values() for name, module in names.items()}
 __all__ = sorted(_MODULES)
+__doc__ = (__doc__ or "").replace("{names}", "\n".join(f"{group:<22}{', '.join(names)}" for group, names in _GROUPS.items()))
 
 
 def __getattr__(name):

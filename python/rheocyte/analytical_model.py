@@ -1,12 +1,18 @@
 """The analytical model of small deformations."""
 
+from __future__ import annotations
+
 import json
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rheocyte.arrays import number, positive, truth
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 class SmallDeformation:
@@ -15,11 +21,16 @@ class SmallDeformation:
     contour     meridian, array (n, 2) of x and r in um, front to rear
     """
 
-    def __init__(self, values, contour):
+    contour: NDArray[np.float64]
+
+    def __init__(self, values: dict[str, Any], contour: NDArray[np.float64]) -> None:
         self.__dict__.update(values)
         self.contour = contour
 
-    def to_dict(self):
+    if TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any: ...  # numbers with the names of result.json
+
+    def to_dict(self) -> dict[str, Any]:
         """All numbers, as `rheocyte analytic cell --json` prints them."""
         return {name: value for name, value in self.__dict__.items() if name != "contour"}
 
@@ -27,8 +38,9 @@ class SmallDeformation:
         return f"<SmallDeformation: {self.model}, deformation {self.deformation:.6g}>"
 
 
-def analytic(radius_um, *, young_modulus_kPa=None, cortex_modulus_mN_per_m=None, tension_ratio=None,
-             channel_width_um=None, tube_radius_um=None, flow_rate_ul_s=0.04, viscosity_mPas=15.0, square_duct=False):
+def analytic(radius_um: float, *, young_modulus_kPa: float | None = None, cortex_modulus_mN_per_m: float | None = None,
+             tension_ratio: float | None = None, channel_width_um: float | None = None, tube_radius_um: float | None = None,
+             flow_rate_ul_s: float = 0.04, viscosity_mPas: float = 15.0, square_duct: bool = False) -> SmallDeformation:
     """Shape, velocity and pressure drop of a little deformed cell in closed form (docs/theory-analytic.md).
 
     young_modulus_kPa           of a solid, or

@@ -1,4 +1,4 @@
-# Made by `python -m rheocyte.recordings_stub`; the settings are declared in src/extract/recording_settings.cc.
+# Made by `python -m rheocyte.recordings_stub`; the settings are declared in src/events/recording_settings.cc.
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, Protocol

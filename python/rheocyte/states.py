@@ -1,10 +1,13 @@
 """Stationary states: solving a case, and what is known of its state."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json
 import os
 import threading
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -17,10 +20,22 @@ from rheocyte.native_module import native
 from rheocyte.progress import told_to
 from rheocyte.worker_threads import threads_of
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, KeysView, Mapping
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike, NDArray
+
+    from rheocyte.vtu import Fields
+
+    _Source = Case | str | PathLike[str] | Mapping[str, Any] | None
+
 _DEFAULT_MEMORY_MB = 256
 
 
-def solve(case=None, *, check=False, progress=None, gradient=(), threads=None, **overrides):
+def solve(case: _Source = None, *, check: bool = False, progress: Callable[[dict[str, float]], object] | None = None,
+          gradient: str | Iterable[str] = (), threads: int | None = None, **overrides: Any) -> Result:
     """The stationary shape of a cell, from the sphere to the wanted stiffness by itself.
 
     case        a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
@@ -49,13 +64,14 @@ class Session:
     Python's lock.
     """
 
-    def __init__(self, memory_MB=_DEFAULT_MEMORY_MB):
+    def __init__(self, memory_MB: float = _DEFAULT_MEMORY_MB) -> None:
         size = number(memory_MB, "memory_MB")
         if not 0 <= size < 1e9:
             raise UserError(f"Session: memory_MB is {size:g}; give a size from 0 on.")
         self._native = native.Session(int(size * 2**20))
 
-    def solve(self, case=None, *, check=False, progress=None, gradient=(), threads=None, **overrides):
+    def solve(self, case: _Source = None, *, check: bool = False, progress: Callable[[dict[str, float]], object] | None = None,
+              gradient: str | Iterable[str] = (), threads: int | None = None, **overrides: Any) -> Result:
         """As rheocyte.solve, from a kept state if one is near; the answer is the same up to rounding and tolerance."""
         keys = [gradient] if isinstance(gradient, str) else [str(key) for key in gradient]
         if not isinstance(case, Case) or overrides:
@@ -66,12 +82,12 @@ class Session:
         return result
 
     @property
-    def warm_starts(self):
+    def warm_starts(self) -> int:
         """How many answers started from a kept state."""
         return self._native.warm_starts()
 
     @property
-    def memory_bytes(self):
+    def memory_bytes(self) -> int:
         """Size of what is kept, about."""
         return self._native.memory_bytes()
 
@@ -96,7 +112,7 @@ class Result:
     result.plot()          the picture, a matplotlib figure
     """
 
-    def __init__(self, computed, case):
+    def __init__(self, computed: Any, case: Case) -> None:
         self._native = computed
         self._case = Case(case)
         self._known = None
@@ -108,59 +124,59 @@ class Result:
             self._known = json.loads(self._native.json())
         return self._known
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._numbers:
             raise AttributeError(f"a result has no {name!r}; its numbers are {', '.join(self.__dict__.get('_known') or ())}")
         return self._numbers[name]
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         return self._numbers[name]
 
-    def keys(self):
+    def keys(self) -> KeysView[str]:
         """Names of the numbers, those of result.json."""
         return self._numbers.keys()
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._numbers)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._numbers)
 
     def __dir__(self):
         return sorted({*super().__dir__(), *self._numbers})
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """The content of result.json."""
         return json.loads(self._native.json())
 
     @property
-    def status(self):
+    def status(self) -> str:
         """"converged", or the name of the reason why not."""
         return self._native.status()
 
     @property
-    def converged(self):
+    def converged(self) -> bool:
         """Whether it is the state that was asked for."""
         return self.status == "converged"
 
     @property
-    def problem(self):
+    def problem(self) -> Case:
         """The Case that was solved."""
         return self._case
 
     @property
-    def surface(self):
+    def surface(self) -> dict[str, NDArray[np.float64]]:
         """Columns of contour.csv: dictionary of arrays (n,) by names with units, from the front pole to the rear one."""
         return self._native.surface()
 
     @property
-    def contour(self):
+    def contour(self) -> NDArray[np.float64]:
         """Meridian, array (n, 2) of x and r >= 0 in um, x from the barycentre along the flow; n = 0 without a state."""
         surface = self.surface
         return np.stack([surface["x_um"], surface["r_um"]], axis=1)
 
     @property
-    def outlines(self):
+    def outlines(self) -> dict[str, NDArray[np.float64]]:
         """Of a cell in a duct, dictionary of arrays (n, 2) in um, x from the barycentre along the flow; empty in a tube.
 
         On the axis "side", and "diagonal" (square) or "across" (rectangle, funnel: seen along the width): halves as `contour`,
@@ -170,7 +186,7 @@ class Result:
         return self._native.outlines()
 
     @property
-    def gradient(self):
+    def gradient(self) -> dict[str, dict[str, float | None]]:
         """Derivatives of the measures: dictionary by keys of the case of dictionaries by measures.
 
         Each in the unit of the measure over that of the key, of the numbers as they are computed, on their mesh; None where
@@ -179,7 +195,7 @@ class Result:
         """
         return self._numbers["gradients"]
 
-    def surface_gradient(self, key):
+    def surface_gradient(self, key: str) -> dict[str, NDArray[np.float64]]:
         """Derivatives of the columns of `surface` by a key of the case: dictionary of arrays (n,) by their names.
 
         Each in the unit of the column over that of the key, at the same material points of the cell: x_um and r_um tell how
@@ -189,6 +205,10 @@ class Result:
             raise UserError(f"surface_gradient: there is no gradient by {key!r}; give it to solve(..., gradient=[...]).")
         return self._native.surface_gradient(list(self.gradient).index(key))
 
+    @overload
+    def fields(self, x_um: None = None, r_um: None = None) -> Fields: ...
+    @overload
+    def fields(self, x_um: ArrayLike, r_um: ArrayLike) -> dict[str, NDArray[np.float64]]: ...
     def fields(self, x_um=None, r_um=None):
         """Fields of cell and liquid in the half section r >= 0.
 
@@ -207,7 +227,7 @@ class Result:
             return fields
         return field_arrays.on_grid(fields, x_um, r_um)
 
-    def save_fields(self, path):
+    def save_fields(self, path: str | PathLike[str]) -> None:
         """Writes the fields as a .vtu file for ParaView, PyVista or meshio."""
         target, content = paths.path(path, "the file of the fields"), self._vtu()
         try:
@@ -224,7 +244,7 @@ class Result:
             raise MemoryError("the fields do not fit into memory")
         return content
 
-    def plot(self):
+    def plot(self) -> Figure:
         """The picture of `rheocyte solve`: cell, flow and stress; a matplotlib figure."""
         from rheocyte import duct_picture, picture, tube_picture
 

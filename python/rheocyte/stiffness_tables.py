@@ -1,5 +1,7 @@
 """Tables of Young's moduli over area and deformation: rheocyte's own and published ones."""
 
+from __future__ import annotations
+
 import atexit
 import concurrent.futures
 import functools
@@ -9,7 +11,7 @@ import tempfile
 import time
 import warnings
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +22,14 @@ from rheocyte.paths import path, word
 from rheocyte.progress import progress_bar
 from rheocyte.specs import read_spec
 
-STATES = tuple(native.state_names)  # names of the numbers in Moduli.state
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from concurrent.futures import Executor
+    from os import PathLike
+
+    from numpy.typing import ArrayLike, NDArray
+
+STATES: tuple[str, ...] = tuple(native.state_names)  # names of the numbers in Moduli.state
 _MODEL = "buyukurganci-2022"
 
 
@@ -32,7 +41,7 @@ class Moduli(NamedTuple):
     state: np.ndarray  # int8, the names are in rheocyte.STATES: 0 valid, 8 regularised, else why there is no modulus
 
     @property
-    def standard_error_kPa(self):
+    def standard_error_kPa(self) -> np.ndarray:
         """Former name of young_modulus_kPa_error."""
         return self.young_modulus_kPa_error
 
@@ -53,12 +62,12 @@ class TextFiles(NamedTuple):
     lines: Path  # for dclab.isoelastics.Isoelastics
 
 
-def table_names():
+def table_names() -> list[str]:
     """Names of the tables that come with the package."""
     return sorted(native.table_files())
 
 
-def dclab_plugin(file):
+def dclab_plugin(file: str | PathLike[str]) -> Path:
     """Writes the plugin file that gives dclab and DCscope our moduli, as `rheocyte dclab-plugin` prints it, and returns its
     path. The file holds all that it needs: rheocyte need not be installed where it is used.
 
@@ -77,7 +86,7 @@ def _passing_folder():
     return folder.name
 
 
-def place_of_table(name):
+def place_of_table(name: str | PathLike[str]) -> str:
     """The file of a table of the dclab that is installed for this interpreter; any other name as it is. In bytes: names
     of files need not be UTF-8."""
     wanted = path(name, "the table")
@@ -116,7 +125,9 @@ def _by_executor(executor, spec, folder, tell):
     return pieces.finish()
 
 
-def table(spec, folder, *, jobs=None, executor=None, progress=None, **overrides):
+def table(spec: str | PathLike[str] | Mapping[str, Any], folder: str | PathLike[str], *, jobs: int | None = None,
+          executor: Executor | None = None, progress: bool | Callable[[float], object] | None = None,
+          **overrides: Any) -> Table | Path:
     """Computes a whole look-up table, as `rheocyte table` does; goes on where an earlier call was interrupted.
 
     spec            path of a TOML file, or a dictionary with its keys, nested or dotted (`rheocyte help table`)
@@ -147,7 +158,8 @@ def table(spec, folder, *, jobs=None, executor=None, progress=None, **overrides)
     return Path(folder)
 
 
-def viscosity(medium, *, channel_width_um, flow_rate_ul_s, temperature_C, model=_MODEL):
+def viscosity(medium: str, *, channel_width_um: float, flow_rate_ul_s: float, temperature_C: ArrayLike,
+              model: str = _MODEL) -> Any:
     """Effective viscosity (mPa s) of a measurement buffer at the wall of the square channel.
 
     medium          "CellCarrier", "0.49% MC-PBS", "CellCarrierB", "0.83% MC-PBS", "water", ...
@@ -173,26 +185,34 @@ class Table:
     1e-6. UserError if there is no such table or it is damaged. docs/theory-extract.md holds the equations.
     """
 
-    def __init__(self, name="LE-2D-26"):
+    def __init__(self, name: str | PathLike[str] = "LE-2D-26") -> None:
         self._native = native.Table(place_of_table(name))
         self._origin = self._native.origin()
 
     @classmethod
-    def for_medium(cls, medium, *, temperature_C=23.0, model=_MODEL):
+    def for_medium(cls, medium: str, *, temperature_C: float = 23.0, model: str = _MODEL) -> Table:
         """The shipped table for a buffer, as `rheocyte extract` chooses it."""
         exponent = _buffer(medium, model).flow_exponent(number(temperature_C, "temperature_C"))
         return cls(native.Table.for_exponent(exponent).origin()["identifier"])
 
-    identifier = property(lambda self: self._origin["identifier"], doc="For example LE-2D-26.")
-    is_own = property(lambda self: self._origin["is_own"], doc="Whether it is one of rheocyte's own, with errors.")
+    @property
+    def identifier(self) -> str:
+        """For example LE-2D-26."""
+        return self._origin["identifier"]
 
     @property
-    def origin(self):
+    def is_own(self) -> bool:
+        """Whether it is one of rheocyte's own, with errors."""
+        return self._origin["is_own"]
+
+    @property
+    def origin(self) -> dict[str, Any]:
         """For what it was computed: channel_width_um, flow_rate_ul_s, viscosity_mPas, flow_exponent, model, program, spec."""
         return dict(self._origin)
 
-    def modulus(self, area_um2, deform, *, channel_width_um, flow_rate_ul_s, pixel_size_um, viscosity_mPas=None,
-                medium=None, temperature_C=None, viscosity_model=_MODEL, correct_area=True):
+    def modulus(self, area_um2: ArrayLike, deform: ArrayLike, *, channel_width_um: float, flow_rate_ul_s: float,
+                pixel_size_um: float, viscosity_mPas: ArrayLike | None = None, medium: str | None = None,
+                temperature_C: ArrayLike | None = None, viscosity_model: str = _MODEL, correct_area: bool = True) -> Moduli:
         """Young's modulus of each event.
 
         area_um2, deform    as measured, arrays (n,) or numbers; float64 arrays are not copied
@@ -214,7 +234,8 @@ class Table:
         found = self._native.modulus(area, deformation, values, buffer, conditions)
         return Moduli(*(column.reshape(shape) for column in found))
 
-    def shapes(self, area_um2, deform, inertia_ratio, *, channel_width_um, pixel_size_um, correct_area=True):
+    def shapes(self, area_um2: ArrayLike, deform: ArrayLike, inertia_ratio: ArrayLike, *, channel_width_um: float,
+               pixel_size_um: float, correct_area: bool = True) -> Shapes:
         """The inertia ratios of events against those of the table's cells (docs/theory-extract.md, sec. "Shapes").
 
         area_um2, deform, inertia_ratio     as measured, arrays (n,) or numbers; the ratio of the convex hull
@@ -232,8 +253,9 @@ class Table:
         conditions = self._conditions(channel_width_um, self._origin["flow_rate_ul_s"], pixel_size_um, correct_area)
         return Shapes(*(column.reshape(shape) for column in self._native.shapes(*arrays.values(), conditions)))
 
-    def lines(self, levels_kPa=None, *, pixel_size_um, count=11, channel_width_um=None, flow_rate_ul_s=None,
-              viscosity_mPas=None):
+    def lines(self, levels_kPa: ArrayLike | None = None, *, pixel_size_um: float, count: int = 11,
+              channel_width_um: float | None = None, flow_rate_ul_s: float | None = None,
+              viscosity_mPas: float | None = None) -> list[tuple[float, NDArray[np.float64]]]:
         """Isoelasticity lines: a list of pairs (young_modulus_kPa, points), points (n, 2) of area (um2) and deformation.
 
         levels_kPa      moduli of the lines; else `count` that spread evenly
@@ -249,11 +271,12 @@ class Table:
         return self._native.lines(levels, int(wanted), self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas,
                                                                  pixel_size_um))
 
-    def support(self, *, pixel_size_um, channel_width_um=None, flow_rate_ul_s=None, viscosity_mPas=None):
+    def support(self, *, pixel_size_um: float, channel_width_um: float | None = None, flow_rate_ul_s: float | None = None,
+                viscosity_mPas: float | None = None) -> NDArray[np.float64]:
         """Border of the region with moduli: polygon (n, 2) of area (um2) and deformation; arguments as lines."""
         return self._native.support(self._seen(channel_width_um, flow_rate_ul_s, viscosity_mPas, pixel_size_um))
 
-    def texts(self, folder=None):
+    def texts(self, folder: str | PathLike[str] | None = None) -> TextFiles:
         """Writes the table in dclab's format, and its isoelasticity lines, and returns their paths (TextFiles).
 
         folder          for lut_<identifier>.txt and iso_<identifier>-area_um-deform.txt; made if it is not there.

@@ -35,9 +35,9 @@ py::tuple analytic(const AnalyticConditions& c, double radius_um, const std::opt
 
 }  // namespace
 
-void bind_analysis(py::module_& module) {
+const Binding bind_analysis([](py::module_& module) {
   py::class_<AnalyticConditions>(module, "AnalyticConditions").def(py::init(&conditions));
   module.def("analytic", &analytic);
-}
+});
 
 }  // namespace rheocyte

@@ -3,22 +3,22 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
+#include <vector>
+
 namespace rheocyte {
 
-void bind_cases(pybind11::module_& module);
-void bind_results(pybind11::module_& module);
-void bind_states(pybind11::module_& module);
-void bind_evolution(pybind11::module_& module);
-void bind_media(pybind11::module_& module);
-void bind_tables(pybind11::module_& module);
-void bind_table_computation(pybind11::module_& module);
-void bind_options(pybind11::module_& module);
-void bind_recordings(pybind11::module_& module);
-void bind_events(pybind11::module_& module);
-void bind_courses(pybind11::module_& module);
-void bind_populations(pybind11::module_& module);
-void bind_recording_file(pybind11::module_& module);
-void bind_masks(pybind11::module_& module);
-void bind_analysis(pybind11::module_& module);
+/// A part of the module, declared in the file that has its functions: `const Binding binding{[](module_& module)
+/// {...}};`
+class Binding {
+ public:
+  using Bind = void (*)(pybind11::module_& module);
+  explicit Binding(Bind bind) { all().push_back(bind); }
+
+  /// Of all files that were compiled.
+  static std::vector<Bind>& all() {
+    static std::vector<Bind> parts;
+    return parts;
+  }
+};
 
 }  // namespace rheocyte

@@ -98,7 +98,7 @@ py::list descriptions() {
 
 }  // namespace
 
-void bind_cases(py::module_& module) {
+const Binding bind_cases([](py::module_& module) {
   module.def("case_keys", &descriptions);
   module.def("stated_in_file", &stated_in_file);
   module.def("case_reference", [] { return reference_text(case_reference()); });
@@ -109,6 +109,6 @@ void bind_cases(py::module_& module) {
       .def("toml", [](const Case& c) { return to_toml(c); })
       .def("hash", &case_hash)
       .def("is_stationary", [](const Case& c) { return c.time.scheme == TimeScheme::stationary; });
-}
+});
 
 }  // namespace rheocyte

@@ -85,9 +85,9 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
 
 }  // namespace
 
-void bind_courses(py::module_& module) {
+const Binding bind_courses([](py::module_& module) {
   module.def("time_course", &time_course);
   module.def("synth", &synth);
-}
+});
 
 }  // namespace rheocyte

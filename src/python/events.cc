@@ -67,6 +67,6 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
 
 }  // namespace
 
-void bind_events(py::module_& module) { module.def("extract", &extract); }
+const Binding bind_events([](py::module_& module) { module.def("extract", &extract); });
 
 }  // namespace rheocyte

@@ -115,7 +115,7 @@ class PythonEvolution {
 
 }  // namespace
 
-void bind_evolution(py::module_& module) {
+const Binding bind_evolution([](py::module_& module) {
   py::class_<PythonEvolution>(module, "Evolution")
       .def(py::init<const Case&, int>())
       .def("next", &PythonEvolution::next)
@@ -124,6 +124,6 @@ void bind_evolution(py::module_& module) {
       .def("is_over", &PythonEvolution::is_over)
       .def("stop", &PythonEvolution::stop)
       .def("result", &PythonEvolution::result);
-}
+});
 
 }  // namespace rheocyte

@@ -73,6 +73,6 @@ py::tuple features(const Masks& masks, double pixel_size_um) {
 
 }  // namespace
 
-void bind_masks(py::module_& module) { module.def("features", &features); }
+const Binding bind_masks([](py::module_& module) { module.def("features", &features); });
 
 }  // namespace rheocyte

@@ -45,12 +45,12 @@ py::array_t<double> viscosities(const Buffer& buffer, double width_um, double ra
 
 }  // namespace
 
-void bind_media(py::module_& module) {
+const Binding bind_media([](py::module_& module) {
   py::class_<Buffer>(module, "Buffer")
       .def(py::init(&buffer_of))
       .def("flow_exponent", &Buffer::flow_exponent)
       .def("viscosity", &viscosities);
   module.attr("possible_temperatures_C") = py::make_tuple(lowest_temperature_C, highest_temperature_C);
-}
+});
 
 }  // namespace rheocyte

@@ -29,19 +29,5 @@ PYBIND11_MODULE(native, module) {
   module.doc() = "The libraries of rheocyte; use the package rheocyte, not this module.";
   module.attr("version") = rheocyte::version;
   py::register_local_exception_translator(&translate);
-  rheocyte::bind_cases(module);
-  rheocyte::bind_results(module);
-  rheocyte::bind_states(module);
-  rheocyte::bind_evolution(module);
-  rheocyte::bind_media(module);
-  rheocyte::bind_tables(module);
-  rheocyte::bind_table_computation(module);
-  rheocyte::bind_options(module);
-  rheocyte::bind_recordings(module);
-  rheocyte::bind_events(module);
-  rheocyte::bind_courses(module);
-  rheocyte::bind_populations(module);
-  rheocyte::bind_recording_file(module);
-  rheocyte::bind_masks(module);
-  rheocyte::bind_analysis(module);
+  for (const auto bind : rheocyte::Binding::all()) bind(module);
 }

@@ -34,11 +34,11 @@ py::class_<Options> bind(py::module_& module, const char* name) {
 
 }  // namespace
 
-void bind_options(py::module_& module) {
+const Binding bind_options([](py::module_& module) {
   bind<ExtractOptions>(module, "ExtractOptions");
   bind<ModuliOptions>(module, "ModuliOptions").def_readwrite("table", &ModuliOptions::table);
   bind<TimeCourseOptions>(module, "TimeCourseOptions");
   bind<PopulationOptions>(module, "PopulationOptions");
-}
+});
 
 }  // namespace rheocyte

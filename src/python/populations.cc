@@ -72,7 +72,7 @@ py::tuple plan(const PlanOptions& options) {
 
 }  // namespace
 
-void bind_populations(py::module_& module) {
+const Binding bind_populations([](py::module_& module) {
   module.def("population", &population);
   using O = PlanOptions;
   py::class_<O>(module, "PlanOptions")
@@ -92,6 +92,6 @@ void bind_populations(py::module_& module) {
       .def_readwrite("media", &O::media)
       .def_readwrite("rates_ul_s", &O::rates_ul_s);
   module.def("plan", &plan);
-}
+});
 
 }  // namespace rheocyte

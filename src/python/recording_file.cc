@@ -32,7 +32,7 @@ void append_masks(RecordingFile& file, const Masks& masks) {
 
 }  // namespace
 
-void bind_recording_file(py::module_& module) {
+const Binding bind_recording_file([](py::module_& module) {
   using File = RecordingFile;
   py::class_<File>(module, "RecordingFile")
       .def(py::init<const std::filesystem::path&>())
@@ -44,6 +44,6 @@ void bind_recording_file(py::module_& module) {
       .def("add_basin", &File::add_basin)
       .def("add_log", &File::add_log)
       .def("close", &File::close);
-}
+});
 
 }  // namespace rheocyte

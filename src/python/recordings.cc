@@ -51,6 +51,6 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
 
 }  // namespace
 
-void bind_recordings(py::module_& module) { module.def("moduli", &moduli); }
+const Binding bind_recordings([](py::module_& module) { module.def("moduli", &moduli); });
 
 }  // namespace rheocyte

@@ -50,7 +50,7 @@ py::dict surface_gradient(const Result& result, std::size_t gradient) {
 
 }  // namespace
 
-void bind_results(py::module_& module) {
+const Binding bind_results([](py::module_& module) {
   py::class_<Result>(module, "Result")
       .def("json", [](const Result& r) { return json_text(r); })
       .def("surface", &surface_columns)
@@ -63,6 +63,6 @@ void bind_results(py::module_& module) {
              return r.state.write_fields && r.state.write_fields(path, r.scales);
            })
       .def("status", [](const Result& r) { return name(r.state.outcome.status); });
-}
+});
 
 }  // namespace rheocyte

@@ -62,12 +62,12 @@ class SharedSession {
 
 }  // namespace
 
-void bind_states(py::module_& module) {
+const Binding bind_states([](py::module_& module) {
   py::class_<SharedSession>(module, "Session")
       .def(py::init<std::size_t>())
       .def("solve", &SharedSession::solve)
       .def("warm_starts", &SharedSession::warm_starts)
       .def("memory_bytes", &SharedSession::memory_bytes);
-}
+});
 
 }  // namespace rheocyte

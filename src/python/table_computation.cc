@@ -108,7 +108,7 @@ py::bytes table_piece(const std::string& text, const std::string& name, const st
 
 }  // namespace
 
-void bind_table_computation(py::module_& module) {
+const Binding bind_table_computation([](py::module_& module) {
   module.def("compute_table", &compute_table);
   module.def("table_piece", &table_piece);
   py::class_<TablePieces>(module, "TablePieces")
@@ -120,6 +120,6 @@ void bind_table_computation(py::module_& module) {
       .def("keep", &TablePieces::keep)
       .def("give_up", &TablePieces::give_up)
       .def("finish", &TablePieces::finish);
-}
+});
 
 }  // namespace rheocyte

@@ -188,7 +188,7 @@ HeldTable table_for(double flow_exponent) {
 
 }  // namespace
 
-void bind_tables(py::module_& module) {
+const Binding bind_tables([](py::module_& module) {
   py::class_<MeasuringConditions>(module, "Conditions")
       .def(py::init(&measuring_conditions))
       .def("set_viscosity", [](MeasuringConditions& c, double mPas) { c.flow.viscosity_mPas = mPas; });
@@ -206,6 +206,6 @@ void bind_tables(py::module_& module) {
   module.def("write_dclab_plugin", &write_dclab_plugin);
   module.attr("state_names") =
       std::vector<std::string_view>(names_of_modulus_states.begin(), names_of_modulus_states.end());
-}
+});
 
 }  // namespace rheocyte

@@ -17,9 +17,8 @@ void refuse(py::module_& module, const char* name, const char* what) {
 
 }  // namespace
 
-void bind_results(py::module_&) {}
-void bind_states(py::module_& module) { refuse(module, "Session", "solve"); }
-void bind_evolution(py::module_& module) { refuse(module, "Evolution", "evolve"); }
-void bind_table_computation(py::module_& module) { refuse(module, "compute_table", "table"); }
+const Binding bind_states([](py::module_& module) { refuse(module, "Session", "solve"); });
+const Binding bind_evolution([](py::module_& module) { refuse(module, "Evolution", "evolve"); });
+const Binding bind_table_computation([](py::module_& module) { refuse(module, "compute_table", "table"); });
 
 }  // namespace rheocyte

@@ -50,7 +50,7 @@ print(frame["young_modulus_kPa"].notna().sum() > 50)
 
 
 def test_pictures_need_no_compiled_module(tmp_path):
-    for file in PACKAGE.glob("*.py"):
+    for file in PACKAGE.glob("*.py*"):
         (tmp_path / "rheocyte").mkdir(exist_ok=True)
         (tmp_path / "rheocyte" / file.name).write_bytes(file.read_bytes())
     code = """
