@@ -85,8 +85,6 @@ if(RHEOCYTE_SOLVER AND RHEOCYTE_PROCESSES)
   target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_DISABLE_CO_AWAIT BOOST_ERROR_CODE_HEADER_ONLY)
   if(WIN32)
     target_link_libraries(rheocyte::beast INTERFACE ws2_32 mswsock)
-  elseif(APPLE)  # an older Asio asks for std::result_of, which Apple's library has no longer
-    target_compile_definitions(rheocyte::beast INTERFACE BOOST_ASIO_HAS_STD_INVOKE_RESULT=1)
   endif()
 endif()
 

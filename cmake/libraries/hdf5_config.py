@@ -1,10 +1,10 @@
-"""H5pubconf.h of HDF5 1.14: `hdf5_config.py emscripten|windows|darwin SOURCE TARGET`. Its own configuration links some 160
+"""H5pubconf.h of HDF5 1.14: `hdf5_config.py emscripten|windows SOURCE TARGET`. Its own configuration links some 160
 programs to find this out, which takes longer than compiling it, and runs some, which a cross-compiler cannot."""
 import re
 import sys
 from pathlib import Path
 
-# What all have; then what one of them has: wasm32-emscripten, x86_64-w64-mingw32, macOS.
+# What all have; then what one of them has: wasm32-emscripten, x86_64-w64-mingw32.
 COMMON = """DEV_T_IS_SCALAR HAVE_ASPRINTF HAVE_ATTRIBUTE HAVE_BUILTIN_EXPECT HAVE_DIRENT_H HAVE_FILTER_DEFLATE HAVE_FSEEKO
 HAVE_GETTIMEOFDAY HAVE_LIBM HAVE_LIBZ HAVE_STDATOMIC_H HAVE_STRDUP HAVE_SYS_STAT_H HAVE_SYS_TIME_H HAVE_SYS_TYPES_H
 HAVE_TIMEZONE HAVE_UNISTD_H HAVE_VASPRINTF HAVE_ZLIB_H IGNORE_DISABLED_FILE_LOCKS LDOUBLE_TO_LLONG_ACCURATE
@@ -14,16 +14,11 @@ HAS = {
 HAVE_GETRUSAGE HAVE_IOCTL HAVE_NETDB_H HAVE_NETINET_IN_H HAVE_PREADWRITE HAVE_PWD_H HAVE_STAT_ST_BLOCKS HAVE_STRCASESTR
 HAVE_SYMLINK HAVE_SYS_FILE_H HAVE_SYS_IOCTL_H HAVE_SYS_RESOURCE_H HAVE_SYS_SOCKET_H HAVE_TMPFILE HAVE_TM_GMTOFF""",
     "windows": "HAVE_MINGW HAVE_WIN32_API HAVE_WINDOWS HAVE_WINDOW_PATH",
-    "darwin": """HAVE_ALARM HAVE_ARPA_INET_H HAVE_CLOCK_GETTIME HAVE_DARWIN HAVE_DLFCN_H HAVE_FCNTL HAVE_FLOCK HAVE_GETHOSTNAME
-HAVE_GETRUSAGE HAVE_IOCTL HAVE_NETDB_H HAVE_NETINET_IN_H HAVE_PREADWRITE HAVE_PWD_H HAVE_STAT_ST_BLOCKS HAVE_STRCASESTR
-HAVE_SYMLINK HAVE_SYS_FILE_H HAVE_SYS_IOCTL_H HAVE_SYS_RESOURCE_H HAVE_SYS_SOCKET_H HAVE_TMPFILE HAVE_TM_GMTOFF""",
 }
 SIZES = {"BOOL": 1, "CHAR": 1, "DOUBLE": 8, "FLOAT": 4, "INT": 4, "LONG": 4, "LONG_DOUBLE": 16, "LONG_LONG": 8,
          "OFF64_T": 8, "OFF_T": 8, "SHORT": 2, "TIME_T": 8, "UNSIGNED": 4, "_FLOAT16": 0, "__FLOAT128": 0, "_QUAD": 0}
-# A number, or a macro of the compiler where processors differ.
-SIZES_OF_DARWIN = {"LONG": 8, "LONG_DOUBLE": "__SIZEOF_LONG_DOUBLE__"}
 SIZES_OF_POINTERS = ("PTRDIFF_T", "SIZE_T", "SSIZE_T")
-POINTER = {"emscripten": 4, "windows": 8, "darwin": 8}
+POINTER = {"emscripten": 4, "windows": 8}
 TEXTS = {"DEFAULT_PLUGINDIR": '"/none"', "PACKAGE": '"hdf5"', "PACKAGE_NAME": '"HDF5"', "PACKAGE_STRING": '"HDF5"',
          "PACKAGE_TARNAME": '"hdf5"', "PACKAGE_BUGREPORT": '""', "PACKAGE_URL": '""', "PACKAGE_VERSION": '"1.14"',
          "VERSION": '"1.14"', "DEFAULT_VFD": "H5FD_SEC2"}
@@ -33,8 +28,6 @@ def size_of(system, name):
     """Of the type in SIZEOF_...; None for one that is not known here."""
     if name in SIZES_OF_POINTERS:
         return POINTER[system]
-    if system == "darwin" and name in SIZES_OF_DARWIN:
-        return SIZES_OF_DARWIN[name]
     whole = re.fullmatch(r"U?INT(_FAST|_LEAST)?(8|16|32|64)_T", name)
     if not whole:
         return SIZES.get(name)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/scales.h"
+#include "case/unit.h"
 
 namespace rheocyte {
 

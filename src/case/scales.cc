@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/problem.h"
+#include "case/unit.h"
 #include "laws/developed_flow.h"
 
 namespace rheocyte {

@@ -98,7 +98,8 @@ std::vector<std::string> Gates::lines_in_full() const {
   std::vector<std::string> lines;
   for (const auto& [feature, min, max] : limits_) lines.push_back(fmt::format("{} <= {} <= {}", min, feature, max));
   for (const auto& polygon : polygons_) lines.push_back(polygon.description_in_full());
-  if (events_) lines.push_back(fmt::format("chosen events {}", fingerprint(fmt::format("{}", fmt::join(*events_, ",")))));
+  if (events_)
+    lines.push_back(fmt::format("chosen events {}", fingerprint(fmt::format("{}", fmt::join(*events_, ",")))));
   return lines;
 }
 

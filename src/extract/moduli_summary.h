@@ -33,8 +33,9 @@ struct ModuliSummary : RecordingFacts {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tuple_cat(RecordingFacts::fields(s), std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa,
-                                                              s.outline_noise_um, s.settings_hash, s.warnings, s.axial, s.median_cell));
+    return std::tuple_cat(RecordingFacts::fields(s),
+                          std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.outline_noise_um,
+                                   s.settings_hash, s.warnings, s.axial, s.median_cell));
   }
 
   std::size_t events() const;

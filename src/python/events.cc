@@ -37,7 +37,7 @@ struct ExtractedEvents {
 };
 
 ExtractedEvents extracted(const std::filesystem::path& file, const ExtractOptions& options, const SharedColumns& memory,
-                         const TellProgress& report_progress) {
+                          const TellProgress& report_progress) {
   const ModulusTables tables(options.table, options.section);
   Recording recording(file);
   EventPass pass(recording, report_progress);

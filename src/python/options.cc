@@ -8,8 +8,8 @@
 #include <string>
 
 #include "events/recording_settings.h"
-#include "report/settings_text.h"
 #include "python/bindings.h"
+#include "report/settings_text.h"
 
 namespace rheocyte {
 

@@ -1,4 +1,4 @@
-// Of builds without processes: what is written is read in its place. Compiled, not run (tools/macos, tools/windows).
+// Of builds without processes: what is written is read in its place. Compiled, not run (tools/windows).
 #include <string>
 
 #include "python/shared_memory.h"

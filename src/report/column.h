@@ -4,8 +4,8 @@
 // frames and the page's rows are made from lists of columns.
 //
 // Names: the quantity, then the statistic if it is that of several cells, then the unit: young_modulus_kPa,
-// young_modulus_median_kPa. The standard error of x is x_error, what all events have in common of it x_common_error, the
-// ends of its interval are x_low and x_high. Former names: report/former_names.h.
+// young_modulus_median_kPa. The standard error of x is x_error, what all events have in common of it x_common_error,
+// the ends of its interval are x_low and x_high. Former names: report/former_names.h.
 #pragma once
 #include <functional>
 #include <span>

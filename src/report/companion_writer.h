@@ -50,7 +50,7 @@ class CompanionWriter {
 
   CompanionFile file_;
   const Recording& recording_;
-  std::vector<std::string> free_;                       ///< the names that are left, in reverse order
+  std::vector<std::string> free_;                           ///< the names that are left, in reverse order
   std::vector<std::pair<std::size_t, std::string>> names_;  ///< of the columns that have one
   std::vector<std::string> missing_;
 };

@@ -29,7 +29,9 @@ struct DistributedQuantity {
 /// Median with its standard error, first and third quartile; `of`: the distribution of a row.
 template <class Row, class Of>
 void add_quartiles(ColumnList<Row>& list, const DistributedQuantity& quantity, Of of) {
-  const auto number = [of](double Distribution::*which) { return [of, which](const Row& row) { return of(row).*which; }; };
+  const auto number = [of](double Distribution::*which) {
+    return [of, which](const Row& row) { return of(row).*which; };
+  };
   list.add_with_error(quantity.column("median", "median"), number(&Distribution::median),
                       number(&Distribution::median_error));
   list.add(quantity.column("first_quartile", "first quartile"), number(&Distribution::first_quartile));

@@ -32,8 +32,8 @@ class Writers {
     companion_.add_metadata("rheocyte emodulus", "Young's modulus (kPa), with the settings in the log");
     companion_.add_metadata("rheocyte table", extraction.table().origin().identifier);
     const auto columns = descriptions(values_.columns());
-    companion_.add(columns, files.for_ourselves() ? CompanionWriter::Naming::roles
-                                                  : CompanionWriter::Naming::free_features);
+    companion_.add(columns,
+                   files.for_ourselves() ? CompanionWriter::Naming::roles : CompanionWriter::Naming::free_features);
     companion_.add_origin("extract", fs::absolute(files.companion()).parent_path(), extraction.lines());
     companion_.add_feature("area_um", extraction.shapes().area_from() == "area_um");
     companion_.add_feature("deform", extraction.shapes().deformation_from() == "deform");
@@ -64,7 +64,8 @@ class Writers {
   /// What has no place in the companion and would be missed there; empty if everything has.
   std::string missing() const {
     std::string roles;
-    for (const auto& [role, word] : {std::pair("state", "state"), std::pair("young_modulus_kPa_error", "standard error")})
+    for (const auto& [role, word] :
+         {std::pair("state", "state"), std::pair("young_modulus_kPa_error", "standard error")})
       if (std::ranges::count(companion_.missing(), role) > 0) roles.append(roles.empty() ? "" : " and ").append(word);
     if (roles.empty()) return {};
     return fmt::format(

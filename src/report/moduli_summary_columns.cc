@@ -14,12 +14,13 @@ Columns<ModuliSummary> moduli_summary_columns() {
   list.add({"outline_noise_um", "um", "Errors of the outline", "beside those of the pixels, as given"},
            &S::outline_noise_um)
       .add({"gates", "", "Gates", "limits and polygons of the events that count"}, &S::gates)
-      .add({"settings_hash", "", "Hash of the settings", "the same for results that are comparable"}, &S::settings_hash);
+      .add({"settings_hash", "", "Hash of the settings", "the same for results that are comparable"},
+           &S::settings_hash);
   add_quartiles(list, {"young_modulus", "kPa", "kPa", "E beside a cortex", "Young's modulus of the resolved events"},
                 [](const S& s) { return s.young_kPa; });
-  add_quartiles(list,
-                {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
-                [](const S& s) { return s.cortex_mN_per_m; });
+  add_quartiles(
+      list, {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
+      [](const S& s) { return s.cortex_mN_per_m; });
   add_quartiles(list, {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0", "the stiffness of all events that have one"},
                 [](const S& s) { return s.stiffness_kPa; });
   const auto of_tension = [](auto number) {

@@ -24,13 +24,15 @@ std::string_view way_word(const R& r) {
 Columns<R> recommendation_columns() {
   ColumnList<R> list;
   list.add({"modulus", "", "Recommended modulus", "\"none\", \"deformation\" or \"elongated\""}, way_word)
-      .add_with_errors({"young_modulus_median_kPa", "kPa", "Recommended E, median",
-                        "the modulus that is to be reported", "", 0, digits_of_values},
-                       [](const R& r) { return r.kPa.value; }, [](const R& r) { return r.kPa.error; },
-                       [](const R& r) { return r.kPa.common_error; })
+      .add_with_errors(
+          {"young_modulus_median_kPa", "kPa", "Recommended E, median", "the modulus that is to be reported", "", 0,
+           digits_of_values},
+          [](const R& r) { return r.kPa.value; }, [](const R& r) { return r.kPa.error; },
+          [](const R& r) { return r.kPa.common_error; })
       .add({"reason", "", "Reason", "why this number, or why none"}, [](const R& r) { return code_of(r.reason); })
       .add({"bound", "", "Bound", "\"softer\" or \"stiffer\", of a median beyond the table"}, &R::bound)
-      .add({"bound_kPa", "kPa", "Bound of the recommended E", "than which the median is softer or stiffer"}, &R::bound_kPa)
+      .add({"bound_kPa", "kPa", "Bound of the recommended E", "than which the median is softer or stiffer"},
+           &R::bound_kPa)
       .add({"share_percent", "%", "Events with the recommended modulus", "of those that were judged"},
            [](const R& r) { return 100 * r.events.share(); });
   return std::move(list).columns();
@@ -54,7 +56,8 @@ nlohmann::ordered_json recommended_json(const S& summary) { return printed_row_j
 std::string recommended_in_short(const S& summary) {
   constexpr int digits = 3;
   const R r = recommendation(summary.shapes);
-  if (std::isfinite(r.bound_kPa)) return fmt::format("recommended: {} than {:.{}g} kPa", r.bound(), r.bound_kPa, digits);
+  if (std::isfinite(r.bound_kPa))
+    return fmt::format("recommended: {} than {:.{}g} kPa", r.bound(), r.bound_kPa, digits);
   if (!std::isfinite(r.kPa.value)) return "no modulus is recommended";
   return fmt::format("recommended: E = {} kPa", text_with_errors(r.kPa, digits));
 }

@@ -62,7 +62,8 @@ void add_settings(ColumnList<S>& list) {
   list.add({"table", "", "Table", "its identifier"}, &S::table)
       .add({"medium", "", "Medium", "the liquid; empty where a viscosity was given"}, &S::medium)
       .add({"viscosity_model", "", "Viscosity model", "\"given\" where the viscosity was"}, &S::viscosity_model)
-      .add({"viscosity_mean_mPas", "mPa s", "Viscosity, mean", "of the liquid, over the events"}, &S::mean_viscosity_mPas)
+      .add({"viscosity_mean_mPas", "mPa s", "Viscosity, mean", "of the liquid, over the events"},
+           &S::mean_viscosity_mPas)
       .add({"temperature", "", "Temperature", "and where it comes from"}, &S::temperature)
       .add({"channel_width_um", "um", "Channel width", "of the square channel"},
            [](const S& s) { return s.conditions.flow.width_um; })
@@ -93,7 +94,8 @@ std::string summary_text(const Column<S>& column, const S& summary) {
 const Columns<S>& summary_columns() {
   static const Columns<S> columns = [] {
     ColumnList<S> list;
-    list.add_of(recommended_columns(), [](const S& s) -> const S& { return s; }, start_of_recommended);
+    list.add_of(
+        recommended_columns(), [](const S& s) -> const S& { return s; }, start_of_recommended);
     add_counts(list);
     add_modulus(list);
     list.add_of(elongation_summary_columns(), &S::shapes).add_of(verdict_columns(), &S::shapes);

@@ -5,10 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#ifdef __APPLE__
-#include <crt_externs.h>
-#endif
-
 #include <array>
 #include <utility>
 
@@ -16,13 +12,7 @@ namespace rheocyte {
 
 namespace {
 
-#ifdef __APPLE__  // where libraries do not see `environ`
-constexpr const char* opener = "open";
-char** environment_of_ours() { return *::_NSGetEnviron(); }
-#else
 constexpr const char* opener = "xdg-open";
-char** environment_of_ours() { return environ; }
-#endif
 
 /// Without our terminal and our signals. -1 if it cannot be started.
 pid_t start_alone(const char* program, const std::string& argument) {
@@ -36,7 +26,7 @@ pid_t start_alone(const char* program, const std::string& argument) {
   std::string name(program), word(argument);
   std::array<char*, 3> arguments{name.data(), word.data(), nullptr};
   pid_t child = -1;
-  if (::posix_spawnp(&child, program, &files, &attributes, arguments.data(), environment_of_ours()) != 0) child = -1;
+  if (::posix_spawnp(&child, program, &files, &attributes, arguments.data(), environ) != 0) child = -1;
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&files);
   return child;

@@ -1,6 +1,5 @@
-// What store/process_limits.h needs of each system, and what the systems share for it.
+// What the end without memory and the limits of the process need of each other.
 #pragma once
-#include <cstddef>
 
 namespace rheocyte {
 
@@ -9,10 +8,5 @@ extern const char* const whose_memory;
 
 /// The end that end_without_memory has set.
 [[noreturn]] void end_now();
-
-inline constexpr std::size_t min_stack = std::size_t{1} << 20U;
-
-/// Takes the memory of most of a stack of that size, where the system would give it only when it is wanted.
-void take_stack();
 
 }  // namespace rheocyte

@@ -34,9 +34,7 @@ void ModuliCompanion::begin(const Recording& recording, const std::vector<std::s
   companion_->add(descriptions(values_.columns()));
 }
 
-void ModuliCompanion::take(std::size_t first, const ModuliBlock& block) {
-  companion_->write(first, values_.of(block));
-}
+void ModuliCompanion::take(std::size_t first, const ModuliBlock& block) { companion_->write(first, values_.of(block)); }
 
 void ModuliCompanion::end(const std::vector<std::string>&) { companion_->close(); }
 

@@ -60,8 +60,9 @@ TEST(Columns, HaveNoFormerNamesAndThoseOfSummariesALabelAndASentence) {
 
 TEST(Columns, OfAPartOfARowAreNamedBehindItsStartAndPrintedNumbersAreThoseOfTexts) {
   ColumnList<double> part;
-  part.add_with_errors({"x_kPa", "kPa", "X", "of a test", "", 0, 3}, [](double x) { return x; },
-                       [](double x) { return x / 10; }, [](double) { return NAN; });
+  part.add_with_errors(
+      {"x_kPa", "kPa", "X", "of a test", "", 0, 3}, [](double x) { return x; }, [](double x) { return x / 10; },
+      [](double) { return NAN; });
   ColumnList<std::pair<int, double>> list;
   list.add_of(std::move(part).columns(), &std::pair<int, double>::second, "its_");
   const auto columns = std::move(list).columns();

@@ -64,8 +64,9 @@ TEST(SummaryTable, CallsAtTheSameTimeLeaveTheLinesOfAll) {
 }
 
 TEST(SummaryTable, ColumnsOfFormerNamesKeepTheirValuesUnderThePresentOnes) {
-  const auto text = summary_table(std::vector<SummaryLine>{},
-                                  "recording\tevents\tvalid\tflow_rate_ul_s\tyoung_modulus_median_error_kPa\nx.rtdc\t5\t2\t0.04\t0.7\n");
+  const auto text = summary_table(
+      std::vector<SummaryLine>{},
+      "recording\tevents\tvalid\tflow_rate_ul_s\tyoung_modulus_median_error_kPa\nx.rtdc\t5\t2\t0.04\t0.7\n");
   const auto lines = split(text, '\n');
   const auto names = split(lines.at(0), '\t'), cells = split(lines.at(1), '\t');
   ASSERT_EQ(names.size(), cells.size());

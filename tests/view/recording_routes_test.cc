@@ -210,7 +210,8 @@ TEST_F(RecordingRoutes, GiveTheModuliOfExtractAsFeatures) {
   EXPECT_EQ(state["summary"]["valid"], summary.counts[0]);
   EXPECT_EQ(state["lines"][0], in_one_line(summary));
   const Json item = json("GET", "/api/items/0");
-  for (const char* name : {"emodulus", "state", "young_modulus_kPa_error", "young_modulus_asymmetry_kPa", "shape_excess"})
+  for (const char* name :
+       {"emodulus", "state", "young_modulus_kPa_error", "young_modulus_asymmetry_kPa", "shape_excess"})
     EXPECT_NE(std::ranges::find(item["features"], name), item["features"].end()) << name;
   const auto numbers = numbers_in<double>(
       bytes_of(ask("GET", "/api/items/0/events", {{"features", "emodulus,state"}, {"type", "float64"}})));
