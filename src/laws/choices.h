@@ -14,4 +14,8 @@ enum class CortexLaw { none, linear, thin_shell, neo_hookean, neo_hookean_refere
 
 enum class LiquidLaw { newtonian, power_law, carreau };
 
+/// Whether the viscosity is a power of the shear rate: then flows of all rates are one, and a table scales between
+/// them.
+inline bool is_power_law(LiquidLaw law) { return law == LiquidLaw::newtonian || law == LiquidLaw::power_law; }
+
 }  // namespace rheocyte

@@ -51,10 +51,6 @@ inline Liquid in_units_of_rate(Liquid liquid, double rate) {
   return liquid;
 }
 
-/// Whether the viscosity is a power of the shear rate: then flows of all rates are one, and a table scales between
-/// them.
-inline bool is_power_law(LiquidLaw law) { return law == LiquidLaw::newtonian || law == LiquidLaw::power_law; }
-
 /// How far the liquid is from a Newtonian one, and the liquid at a fraction of that way, in the same units.
 inline double thinning(const Liquid& liquid) { return std::abs(1 - liquid.exponent); }
 inline Liquid at_thinning(Liquid liquid, double fraction) {

@@ -6,6 +6,7 @@
 
 #include "case/case_keys.h"
 #include "case/scales.h"
+#include "case/unit.h"
 #include "laws/uniaxial.h"
 #include "numeric/lagrange.h"
 #include "table/table_spec.h"

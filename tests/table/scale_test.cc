@@ -8,6 +8,7 @@
 #include "case/case_keys.h"
 #include "case/problem.h"
 #include "case/scales.h"
+#include "case/unit.h"
 #include "case/write_case.h"
 
 namespace rheocyte::scale_test {
