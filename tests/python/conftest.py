@@ -7,6 +7,10 @@ import pytest
 
 TOP = Path(__file__).resolve().parents[2]
 REFERENCE = TOP.parent / "shared" / "reference"
+CELLS = {"recording": {"cells": 300, "seed": 5}, "channel": {"width_um": 20},
+         "flow": {"rate_ul_per_s": 0.04, "medium": "CellCarrier", "temperature_C": {"mean": 23, "sd": 0.3}},
+         "cell": {"radius_um": {"mean": 5.5, "sd": 0.2},
+                  "bulk": {"young_modulus_kPa": {"mean": 8, "sd": 0.5, "distribution": "lognormal"}}}}
 PAPER = {"channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
          "cell": {"radius_um": 7.66, "bulk": {"young_modulus_kPa": 4.0}}, "numerics": {"accuracy": 1e-3}}
 
