@@ -106,7 +106,7 @@ def told(name, values, unit="%"):
 
 def covered(parameters, truth):
     """Whether the 90 % interval holds the truth; on ln s for spreads."""
-    return abs(parameters["value"] - truth) < NORMAL_90 * parameters["standard_error"]
+    return abs(parameters["value"] - truth) < NORMAL_90 * parameters["value_error"]
 
 
 def true_moduli(recording, events):
@@ -141,15 +141,15 @@ def coming_back(bench, cells, arguments):
 def tell_coming_back(bench, cells, files, name, *options):
     record = bench.population({"all": files}, *cells.gate, *options)
     mean, spread = cells.truth() if cells.tension is None else truth_of_fitted(bench, files)
-    found = [each["population"]["parameters"] for each in record["recordings"] if "population" in each]
+    found = [each["parameters"] for each in record["recordings"] if each["parameters"]]
     print(f"{name}: {len(found)} of {len(files)} recordings have a number; events fitted "
-          f"{sum(each['events']['fitted'] for each in record['recordings']) / len(files):.0f}")
+          f"{sum(each['events'] for each in record['recordings']) / len(files):.0f}")
     print(" ", told("ln E", [p[1]["value"] - mean for p in found]), "|",
           told("spread of ln E", [math.exp(p[3]["value"]) / spread - 1 for p in found]))
     known = [p for p in found if not p[3]["at_bound"]]
     print(f"  90 % intervals cover {100 * sum(covered(p[1], mean) for p in found) / len(found):.0f} % (ln E), "
           f"{100 * sum(covered(p[3], math.log(spread)) for p in known) / len(known):.0f} % (spread); standard error "
-          f"{100 * sum(p[1]['standard_error'] for p in found) / len(found):.2f} %")
+          f"{100 * sum(p[1]['value_error'] for p in found) / len(found):.2f} %")
     misfits = {}
     for each in record["recordings"]:
         for check in each["checks"]:

@@ -118,13 +118,13 @@ def as_population(file, options):
     folder = options.folder / f"{file.stem}-population"
     subprocess.run([options.program, "population", "--model", "cortex", "--condition", f"cells={file}", "--table", options.table,
                     "-o", folder, "--no-picture", "--quiet"], check=False, capture_output=True)
-    found = json.loads((folder / "population.json").read_text())["recordings"][0].get("population") or {}
+    found = json.loads((folder / "population.json").read_text())
     told = {}
-    for name in (*MODULI, "axial_tension_Pa"):
-        if f"median_{name}" in found:
-            value, upper = (found[f"median_{name}"][part] for part in ("value", "upper"))
-            relative = np.hypot(np.log(upper / value) / 1.96, found[f"common_relative_error_of_{name}"])
-            told[name] = f"{value:.4g} +- {relative * value:.2g}"
+    for each in found["quantities"]:
+        row, name = found["recordings"][0], each["quantity"]
+        if value := row[each["median"]]:
+            relative = np.hypot(row[f"{name}_ln_median_error"], row[f"{name}_ln_median_common_error"])
+            told[each["median"].replace("_median_", "_")] = f"{value:.4g} +- {relative * value:.2g}"
     return told
 
 

@@ -253,30 +253,24 @@ export interface Moduli {
   command_several?: string;
 }
 
-/** An end is null where there is none. */
-export interface Estimate {
-  value: number;
-  lower: number | null;
-  upper: number | null;
-}
+/** Numbers, texts and flags by the names of their columns; null where there is no number. */
+export type PopulationRow = Record<string, unknown>;
 
-export interface PopulationRecording {
+export interface PopulationRecording extends PopulationRow {
   recording: string;
   condition: string;
   /** from 1 on */
   session: number;
-  /** medians by `median_` and the key of the quantity */
-  population?: Record<string, Estimate | undefined>;
   failure: string | null;
   checks: { measure: string; fits: boolean }[];
 }
 
 /** What the page reads of population.json; there is more. */
 export interface Population {
-  /** what the model tells of cells, the best one first */
-  quantities: { key: string; symbol: string; unit: string }[];
-  conditions: ({ name: string } & Record<string, unknown>)[];
-  comparisons: { control: string; treated: string; quantity: string; ratio: Estimate; ratio_by_sampling_alone: Estimate; p: number | null }[];
+  /** what the model tells of cells, the best one first; `median` is the column of the median */
+  quantities: { quantity: string; median: string; symbol: string; unit: string }[];
+  conditions: (PopulationRow & { condition: string })[];
+  comparisons: (PopulationRow & { control: string; treated: string; quantity: string; ratio: number; p: number | null })[];
   recordings: PopulationRecording[];
 }
 

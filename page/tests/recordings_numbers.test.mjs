@@ -250,12 +250,12 @@ test('conditions are those of the list, their recordings in the order of the rep
 test('the dots of the sessions stand beside each other in the slot of their condition, and the axis holds all intervals', () => {
   const recording = (condition, session, value) => ({
     recording: `${condition}${session}`, condition, session, checks: [],
-    population: { median_young_modulus_kPa: { value, lower: 0.9 * value, upper: 1.1 * value } },
+    young_modulus_median_kPa: value, young_modulus_median_kPa_low: 0.9 * value, young_modulus_median_kPa_high: 1.1 * value,
   });
-  const lost = { recording: 'b2', condition: 'b', session: 2, checks: [], failure: 'too stiff to be seen' };
-  const condition = (name, value) => ({ name, median_young_modulus_kPa: { value, lower: null, upper: null } });
+  const lost = { recording: 'b2', condition: 'b', session: 2, checks: [], young_modulus_median_kPa: null, failure: 'too stiff to be seen' };
+  const condition = (name, value) => ({ condition: name, young_modulus_median_kPa: value, young_modulus_median_kPa_low: null, young_modulus_median_kPa_high: null });
   const found = { conditions: [condition('a', 2), condition('b', 4)], comparisons: [], recordings: [recording('a', 1, 2), recording('a', 2, 2.2), recording('b', 1, 4), lost] };
-  const { dots, span, slots } = dotsOf(found, 'young_modulus_kPa');
+  const { dots, span, slots } = dotsOf(found, 'young_modulus_median_kPa');
   assert.equal(slots, 2);
   assert.equal(dots.length, 3);
   assert.ok(0 < dots[0].place && dots[0].place < dots[1].place && dots[1].place < 1 && 1 < dots[2].place && dots[2].place < 2);

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
 
-from rheocyte import colours, page
+from rheocyte import colours, former_population, page
 from rheocyte.files import InputError, reason, run, save_figure
 from rheocyte.figures.style import STYLE
 
@@ -21,6 +21,8 @@ LONGEST_NAME, POINTS_OF_LETTER = 24, 3.9
 FAINT, BAND = "#aab3bb", "#eef1f4"
 SHARE_OF_PLACE = 0.5  # of the distance between conditions, over which their sessions are spread
 WORDS = {"ln A": "area", "c3": "asymmetry c3", "c4": "c4", "c5": "c5", "d": "deformation"}
+YOUNG = {"quantity": "young_modulus", "median": "young_modulus_median_kPa"}
+STIFFNESS = {"quantity": "stiffness", "median": "stiffness_median_kPa", "symbol": "E + E2D/r0", "unit": "kPa"}
 MOST_OFF = 1.0  # of a spread, drawn in the checks
 
 
@@ -35,7 +37,7 @@ def read_record(folder):
         raise InputError(f"{path} is damaged: {error}.") from error
     if not isinstance(record, dict) or record.get("made_by") != "rheocyte population":
         raise InputError(f"{path} is not a file of rheocyte population.")
-    return record
+    return former_population.renamed(record)
 
 
 class Story:
@@ -44,7 +46,7 @@ class Story:
     def __init__(self, record):
         self.record = record
         self.conditions = record["conditions"]
-        self.names = [each["name"] for each in self.conditions]
+        self.names = [each["condition"] for each in self.conditions]
         self.paired = any(each["test"] == "paired t" for each in record["comparisons"])
 
     def colour(self, name):
@@ -55,13 +57,13 @@ class Story:
         """Those of a condition in the order of their sessions."""
         return [each for each in self.record["recordings"] if each["condition"] == name]
 
-    def modulus(self, name, session, key):
-        """Median of a quantity in a recording, NaN where there is none."""
-        return next((modulus_of(each, key)[0] for each in self.recordings(name) if each["session"] == session), np.nan)
+    def modulus(self, name, session, median):
+        """The number of this column in a recording, NaN where there is none."""
+        return next((interval_of(each, median)[0] for each in self.recordings(name) if each["session"] == session), np.nan)
 
-    def comparisons(self, key):
+    def comparisons(self, quantity):
         """Those of a quantity."""
-        return [each for each in self.record["comparisons"] if each["quantity"] == key]
+        return [each for each in self.record["comparisons"] if each["quantity"] == quantity]
 
     def places(self, name, centre):
         """Of the sessions of a condition, round its own place."""
@@ -69,15 +71,10 @@ class Story:
         return centre + SHARE_OF_PLACE * (np.arange(count) - (count - 1) / 2) / max(count, 3)
 
 
-def modulus_of(recording, key):
-    """Median of a quantity with its interval, NaN where there is none."""
-    return interval_of(recording.get("population") or {}, "median_" + key)
-
-
-def interval_of(entry, name):
-    """Value, lower and upper end of a dictionary in the record; NaN where there is none."""
-    found = entry.get(name) or {}
-    return tuple(np.nan if found.get(part) is None else found[part] for part in ("value", "lower", "upper"))
+def interval_of(row, name, ends=None):
+    """Value, lower and upper end in a row of the record; NaN where there is none."""
+    found = (row.get(each) for each in (name, f"{ends or name}_low", f"{ends or name}_high"))
+    return tuple(np.nan if value is None else value for value in found)
 
 
 def draw(record):
@@ -92,10 +89,9 @@ def draw_solids(story):
     widths = [1 + 0.35 * len(story.names), 0.75 + 0.45 * len(story.record["comparisons"]), 1.7]
     figure = page.new_figure(page.WIDTH_IN, 2.75, STYLE, layout="constrained")
     axes = list(figure.subplots(1, 3 if compared else 2, width_ratios=widths if compared else widths[::2]))
-    key = "young_modulus_kPa"
-    draw_moduli(axes.pop(0), story, key, "median Young's modulus (kPa)")
+    draw_moduli(axes.pop(0), story, YOUNG["median"], "median Young's modulus (kPa)")
     if compared:
-        draw_ratios(axes.pop(0), story, key, "ratio of the medians")
+        draw_ratios(axes.pop(0), story, YOUNG, "ratio of the medians")
     draw_cells(axes.pop(0), story)
     draw_legend(figure, story)
     return figure
@@ -103,35 +99,35 @@ def draw_solids(story):
 
 def draw_several(story):
     """A column for each quantity: its medians, and below them the ratios."""
-    quantities = story.record["quantities"] or [{"key": "stiffness_kPa", "symbol": "E + E2D/r0", "unit": "kPa"}]
+    quantities = story.record["quantities"] or [STIFFNESS]
     compared = bool(story.record["comparisons"])
     figure = page.new_figure(page.WIDTH_IN, 4.4 if compared else 2.75, STYLE, layout="constrained")
     panels = figure.subplots(2 if compared else 1, len(quantities), squeeze=False)
     for column, each in enumerate(quantities):
-        draw_moduli(panels[0, column], story, each["key"], f"{each['symbol']} ({each['unit']})")
-        if compared and story.comparisons(each["key"]):
-            draw_ratios(panels[1, column], story, each["key"], "ratio")
+        draw_moduli(panels[0, column], story, each["median"], f"{each['symbol']} ({each['unit']})")
+        if compared and story.comparisons(each["quantity"]):
+            draw_ratios(panels[1, column], story, each, "ratio")
         elif compared:
             panels[1, column].set_visible(False)
     draw_legend(figure, story)
     return figure
 
 
-def draw_moduli(axes, story, key, title):
+def draw_moduli(axes, story, median, title):
     """One dot a session with its interval, the condition beside them."""
     axes.set_title(title)
     if story.paired:
-        draw_pairs(axes, story, key)
+        draw_pairs(axes, story, median)
     for centre, name in enumerate(story.names):
         colour = story.colour(name)
         for place, recording in zip(story.places(name, centre), story.recordings(name)):
-            draw_recording(axes, place, recording, key, colour)
-        value, lower, upper = interval_of(story.conditions[centre], "median_" + key)
+            draw_recording(axes, place, recording, median, colour)
+        value, lower, upper = interval_of(story.conditions[centre], median)
         if np.isfinite(value):
             draw_mean(axes, centre + 0.36, (value, lower, upper), colour)
     axes.set_xlim(-0.5, len(story.names) - 0.4)
     name_places(axes, [shortened(name) for name in story.names])
-    scaled(axes, [value for each in story.record["recordings"] for value in modulus_of(each, key)])
+    scaled(axes, [value for each in story.record["recordings"] for value in interval_of(each, median)])
 
 
 def shortened(name):
@@ -153,17 +149,17 @@ def name_places(axes, names):
             label.set(rotation=40, ha="right", rotation_mode="anchor", fontsize=6)
 
 
-def draw_pairs(axes, story, key):
+def draw_pairs(axes, story, median):
     """Lines that join the recordings of a session."""
     for k in range(len(story.recordings(story.names[0]))):
         across = [story.places(name, centre)[k] for centre, name in enumerate(story.names)]
-        axes.plot(across, [modulus_of(story.recordings(name)[k], key)[0] for name in story.names], color=FAINT,
+        axes.plot(across, [interval_of(story.recordings(name)[k], median)[0] for name in story.names], color=FAINT,
                   linewidth=0.7, zorder=1)
 
 
-def draw_recording(axes, place, recording, key, colour):
+def draw_recording(axes, place, recording, median, colour):
     """A full dot, an open one where the checks do not hold, an arrow where there is a limit alone."""
-    value, lower, upper = modulus_of(recording, key)
+    value, lower, upper = interval_of(recording, median)
     if not np.isfinite(value):
         for name, end in (("young_modulus_above_kPa", 1.25), ("young_modulus_below_kPa", 0.8)):
             if limit := recording.get(name):
@@ -197,18 +193,18 @@ def scaled(axes, values):
     axes.margins(y=0.08)
 
 
-def draw_ratios(axes, story, key, title):
+def draw_ratios(axes, story, quantity, title):
     """One dot a session, and the mean with its interval; 1 is no difference."""
-    comparisons = story.comparisons(key)
+    comparisons = story.comparisons(quantity["quantity"])
     axes.set_title(title)
     axes.axhline(1, color=colours.INK, linewidth=0.6, zorder=0)
     for place, each in enumerate(comparisons):
         colour = story.colour(each["treated"])
-        ratios = ratios_of(story, each)
+        ratios = ratios_of(story, each, quantity["median"])
         spread = SHARE_OF_PLACE * (np.arange(len(ratios)) - (len(ratios) - 1) / 2) / max(len(ratios), 3)
         axes.plot(place + spread, ratios, "o", markersize=4.4, color=colour, zorder=3)
         by_recordings = each["p"] is not None
-        interval = interval_of(each, "ratio" if by_recordings else "ratio_by_sampling_alone")
+        interval = interval_of(each, "ratio", None if by_recordings else "ratio_by_sampling")
         draw_mean(axes, place + 0.36, interval, colour)
         words = f"p = {each['p']:.2g}" if by_recordings else "no p"
         axes.annotate(f"{interval[0]:.3f}\n{words}", (place, 1), (0, -1), xycoords=("data", "axes fraction"),
@@ -220,13 +216,14 @@ def draw_ratios(axes, story, key, title):
     axes.set_ylim(low - 0.05 * (high - low), high + 0.28 * (high - low))  # for the words
 
 
-def ratios_of(story, comparison):
+def ratios_of(story, comparison, median):
     """Of each session if they are pairs; else of each recording to the mean of the control."""
-    treated, key = story.recordings(comparison["treated"]), comparison["quantity"]
+    treated, control = (story.recordings(comparison[name]) for name in ("treated", "control"))
+    values = [interval_of(each, median)[0] for each in treated]
     if comparison["test"] == "paired t":
-        return [modulus_of(each, key)[0] / story.modulus(comparison["control"], each["session"], key) for each in treated]
-    control = np.exp(np.mean([np.log(modulus_of(each, key)[0]) for each in story.recordings(comparison["control"])]))
-    return [modulus_of(each, key)[0] / control for each in treated]
+        return [value / story.modulus(comparison["control"], each["session"], median) for value, each in zip(values, treated)]
+    mean = np.exp(np.mean([np.log(interval_of(each, median)[0]) for each in control]))
+    return [value / mean for value in values]
 
 
 def draw_cells(axes, story):
@@ -234,9 +231,9 @@ def draw_cells(axes, story):
     axes.set_title("the cells")
     ends = []
     for name in story.names:
-        known = [each["population"] for each in story.recordings(name) if each.get("population")]
+        known = [each for each in story.recordings(name) if np.isfinite(interval_of(each, YOUNG["median"])[0])]
         for cells in known:
-            middle, spread = np.log(cells["median_young_modulus_kPa"]["value"]), cells["spread_of_ln_modulus"]
+            middle, spread = np.log(cells[YOUNG["median"]]), cells["young_modulus_ln_spread"]
             at = np.linspace(middle - 3.2 * spread, middle + 3.2 * spread, 160)
             axes.plot(np.exp(at), np.exp(-0.5 * ((at - middle) / spread) ** 2) / spread / np.sqrt(2 * np.pi),
                       color=story.colour(name), linewidth=0.9, zorder=3)
@@ -287,7 +284,9 @@ def draw_legend(figure, story):
 
 def how_known(story):
     """What the intervals of the conditions come from."""
-    by_recordings = {each["interval_by"] == "scatter of the recordings" for each in story.conditions if "interval_by" in each}
+    first = (story.record["quantities"] or [STIFFNESS])[0]["quantity"]
+    told = (each.get(f"{first}_interval_by") for each in story.conditions)
+    by_recordings = {each == "scatter of the recordings" for each in told if each}
     return {(True,): "its recordings", (False,): "sampling alone"}.get(tuple(by_recordings), "its recordings (one: by sampling)")
 
 

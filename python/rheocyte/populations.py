@@ -3,7 +3,6 @@
 import functools
 import html
 import io
-import json
 
 import numpy as np
 
@@ -13,56 +12,49 @@ from rheocyte.native_module import native
 
 
 class Population:
-    """What recordings say about their cells.
+    """What recordings say about their cells. The names of the columns are those of population.json and population.tsv.
 
     recordings      pandas.DataFrame, one row per recording: condition, session, recording, events (that were fitted),
-                    young_modulus_kPa (median), lower_kPa, upper_kPa, ln_modulus_spread, radius_um, ln_radius_spread,
-                    correlation, kept_fraction (by the gates), fits (whether there are numbers and all checks hold), failure
-    conditions      one row per condition: recordings, events, beyond_the_table (fraction of the events), young_modulus_kPa
-                    with lower_kPa and upper_kPa (by the scatter of the recordings), spreads, radius_um; stiffening with its
-                    ends (the exponent of E over the stress, of recordings at three or more flow rates)
-    comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio, lower, upper, p,
-                    degrees_of_freedom, sampling_lower, sampling_upper
+                    young_modulus_median_kPa with the ends of its interval (..._low, ..._high), young_modulus_mean_kPa,
+                    young_modulus_ln_spread (between cells), young_modulus_ln_median with its standard error (..._error),
+                    radius_median_um, radius_ln_spread, correlation, kept_fraction (by the gates), fits (whether there are
+                    numbers and all checks hold), failure; the numbers of events, and how it was measured
+    conditions      one row per condition: recordings, events, the medians with their ends (by the scatter of the recordings),
+                    spreads, radius_median_um, beyond_table_fraction (of the events); young_modulus_stress_exponent with its ends
+                    (E as a power of the stress, of recordings at three or more flow rates)
+    comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio with its ends, p,
+                    degrees_of_freedom, ln_ratio with its standard error, ratio_by_sampling_low and ..._high
 
-    With model="cortex" the modulus columns are those of each quantity that is told, with its unit: stiffness_kPa (E + E2D/r0),
-    young_modulus_kPa, cortex_modulus_mN_per_m, cortex_tension_mN_per_m, axial_tension_Pa (of the liquid), each with _lower,
-    _upper and _ln_spread (between cells); NaN where a recording does not tell it.
+    With model="cortex" each quantity that is told has these columns, with its unit: stiffness (E + E2D/r0), young_modulus,
+    cortex_modulus, cortex_tension, axial_tension (of the liquid); NaN where a recording does not tell it.
     record          the dictionary of population.json
     """
 
-    def __init__(self, text, events):
+    def __init__(self, record, tables, events):
         import pandas
 
-        self.record = json.loads(text)
+        self.record = record
+        self.recordings, self.conditions, self.comparisons, self._checks = (
+            pandas.DataFrame(tables[name]) for name in ("recordings", "conditions", "comparisons", "checks"))
         self._events = events
-        several = [each["key"] for each in self.record["quantities"]] if self.record["model"] != "solid" else None
-        self.recordings = pandas.DataFrame([_recording_row(each, several) for each in self.record["recordings"]])
-        self.conditions = pandas.DataFrame([_condition_row(each, several) for each in self.record["conditions"]])
-        self.comparisons = pandas.DataFrame([_comparison_row(each) for each in self.record["comparisons"]])
 
     def events(self, recording=0):
         """Shrunken values of the events of a recording (its row): event (counted from 1), young_modulus_kPa,
-        ln_modulus_sd, radius_um, ln_radius_sd. For pictures, never for tests; UserError of more than 20,000 events,
-        which were counted in bins."""
+        young_modulus_ln_error, radius_um, radius_ln_error. For pictures, never for tests; UserError of more than 20,000
+        events, which were counted in bins."""
         import pandas
 
         if recording not in range(len(self._events)):
             raise UserError(f"recording is the number of a row of recordings, 0 to {len(self._events) - 1}; got {recording!r}.")
-        if not self._events[recording]:
+        if not self._events[recording]["event"]:
             raise UserError("the events of this recording have no values of their own: it has no numbers, its cells have a "
                             "cortex, or they were counted in bins; no_bins=True takes each by itself.")
-        return pandas.read_csv(io.StringIO(self._events[recording]), sep="\t", index_col="event")
+        return pandas.DataFrame(self._events[recording]).set_index("event")
 
     def check(self):
         """pandas.DataFrame of the checks: recording, measure, fitted, fits, distance, measured and predicted medians with their
         standard errors, and how many of the three thirds by area fit (of few events none is looked at)."""
-        import pandas
-
-        return pandas.DataFrame([{"recording": each["recording"], "condition": each["condition"],
-                                  **{name: value for name, value in check.items()
-                                     if "quantiles" not in name and name != "thirds_by_area"},
-                                  "thirds_that_fit": sum(third["fits"] for third in check.get("thirds_by_area", []))}
-                                 for each in self.record["recordings"] for check in each["checks"]])
+        return self._checks.copy()
 
     def plot(self):
         """A matplotlib Figure, that of population.png: Young's modulus of each recording with its interval, one dot a session,
@@ -80,20 +72,18 @@ class Population:
 
     def __repr__(self):
         lines = [f"Population of {len(self.recordings)} recordings"]
-        quantities = {each["key"]: each for each in self.record["quantities"]}
+        quantities = {each["quantity"]: each for each in self.record["quantities"]}
         several = len(quantities) > 1
-        for condition in self.record["conditions"]:
-            told = [f"{each['symbol'] + ' ' if several else ''}{_told(*_interval(condition, 'median_' + key), ' ' + each['unit'])}"
-                    for key, each in quantities.items() if "median_" + key in condition]
-            lines.append(f"{condition['name']}: {', '.join(told) or 'no number'}, recordings: {condition['recordings']}, "
+        for condition in self.conditions.to_dict("records"):
+            told = [f"{each['symbol'] + ' ' if several else ''}{_told(condition, each['median'], ' ' + each['unit'])}"
+                    for each in quantities.values() if np.isfinite(condition[each["median"]])]
+            lines.append(f"{condition['condition']}: {', '.join(told) or 'no number'}, recordings: {condition['recordings']}, "
                          f"events: {condition['events']}{_beyond_text(condition)}")
-        for row in self.comparisons.itertuples():
-            of = f"{quantities[row.quantity]['symbol']}, " if several else ""
-            if np.isfinite(row.p):
-                lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.lower, row.upper)}, p = {row.p:.2g}")
-            else:
-                lines.append(f"{row.treated} / {row.control}: {of}{_told(row.ratio, row.sampling_lower, row.sampling_upper)} by "
-                             "sampling alone, no p")
+        for row in self.comparisons.to_dict("records"):
+            of = f"{quantities[row['quantity']]['symbol']}, " if several else ""
+            known = (_told(row, "ratio") + f", p = {row['p']:.2g}" if np.isfinite(row["p"])
+                     else _told(row, "ratio", ends="ratio_by_sampling") + " by sampling alone, no p")
+            lines.append(f"{row['treated']} / {row['control']}: {of}{known}")
         failed = self.recordings[self.recordings["failure"] != ""]
         lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings"
                      + (" with numbers" if len(failed) else ""))
@@ -167,64 +157,15 @@ def _plan_frame():
     return Plan
 
 
-def _beyond(record):
-    """By the side of the table, the fraction of the events beyond it."""
-    counts = record.get("beyond_the_table") or {}
-    events = record["events"] + sum(counts.values())
-    return {side: count / events for side, count in counts.items() if count}
-
-
 def _beyond_text(condition):
-    shares = [f"{100 * share:.0f} % {side}" for side, share in _beyond(condition).items() if share >= 0.005]
+    counts = {name.removeprefix("beyond_table_"): count for name, count in condition.items() if name.startswith("beyond_table_")}
+    events = condition["events"] + counts.pop("events")
+    del counts["fraction"]
+    shares = [f"{100 * count / events:.0f} % {side}" for side, count in counts.items() if events and count / events >= 0.005]
     return f", and beyond the table {' and '.join(shares)}" if shares else ""
 
 
-def _told(value, lower, upper, unit=""):
+def _told(row, name, unit="", ends=None):
     """A number with its interval."""
-    return f"{value:.3g}{unit} ({lower:.3g} .. {upper:.3g})" if np.isfinite(value) else "no number"
-
-
-def _interval(record, name):
-    value = record.get(name) or {}
-    return [np.nan if value.get(part) is None else value[part] for part in ("value", "lower", "upper")]
-
-
-def _moduli(record, several):
-    """Columns of the medians: of solids one, else of each quantity."""
-    if several is None:
-        return {**dict(zip(("young_modulus_kPa", "lower_kPa", "upper_kPa"), _interval(record, "median_young_modulus_kPa"))),
-                "ln_modulus_spread": record.get("spread_of_ln_modulus", np.nan)}
-    columns = {}
-    for key in several:
-        columns.update(zip((key, f"{key}_lower", f"{key}_upper"), _interval(record, f"median_{key}")))
-        columns[f"{key}_ln_spread"] = record.get(f"spread_of_ln_{key}", np.nan)
-    return columns
-
-
-def _recording_row(record, several):
-    found = record.get("population") or {}
-    row = {"condition": record["condition"], "session": record["session"], "recording": record["recording"],
-           "events": record["events"]["fitted"], **_moduli(found, several), "radius_um": found.get("median_radius_um", np.nan), "ln_radius_spread": found.get("spread_of_ln_radius", np.nan)}
-    if several is None:
-        row["correlation"] = found.get("correlation", np.nan)
-    row["kept_fraction"] = found.get("kept_fraction", np.nan)
-    fits = not record["failure"] and all(check["fits"] for check in record["checks"])
-    return {**row, "fits": fits, "failure": record["failure"] or ""}
-
-
-def _condition_row(record, several):
-    exponent, least, greatest = _interval(record.get("stiffening") or {}, "exponent_of_modulus_over_stress")
-    return {"condition": record["name"], "recordings": record["recordings"], "events": record["events"],
-            "beyond_the_table": sum(_beyond(record).values()), **_moduli(record, several), "radius_um": record.get("median_radius_um", np.nan),
-            "ln_radius_spread": record.get("spread_of_ln_radius", np.nan),
-            "stiffening": exponent, "stiffening_lower": least, "stiffening_upper": greatest}
-
-
-def _comparison_row(record):
-    ratio, lower, upper = _interval(record, "ratio")
-    _, sampling_lower, sampling_upper = _interval(record, "ratio_by_sampling_alone")
-    freedom = record["degrees_of_freedom"]
-    return {"control": record["control"], "treated": record["treated"], "quantity": record["quantity"], "ratio": ratio, "lower": lower, "upper": upper,
-            "p": np.nan if record["p"] is None else record["p"],
-            "degrees_of_freedom": np.nan if freedom is None else freedom,
-            "sampling_lower": sampling_lower, "sampling_upper": sampling_upper}
+    low, high = (row[f"{ends or name}_{end}"] for end in ("low", "high"))
+    return f"{row[name]:.3g}{unit} ({low:.3g} .. {high:.3g})"

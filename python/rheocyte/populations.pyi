@@ -1,4 +1,4 @@
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas
@@ -10,7 +10,12 @@ class Population:
     recordings: pandas.DataFrame
     conditions: pandas.DataFrame
     comparisons: pandas.DataFrame
-    def __init__(self, text: str, events: Sequence[str]) -> None: ...
+    def __init__(
+        self,
+        record: dict[str, Any],
+        tables: Mapping[str, Mapping[str, Sequence[Any]]],
+        events: Sequence[Mapping[str, Sequence[Any]]],
+    ) -> None: ...
     def events(self, recording: int = 0) -> pandas.DataFrame: ...
     def check(self) -> pandas.DataFrame: ...
     def plot(self) -> Figure: ...

@@ -104,7 +104,7 @@ def time_course(recordings, table=None, contraction_um=None, *, progress=None, *
     for source in sources:
         columns["recording"] = [source.named(name) for name in columns["recording"]]
         told, lines = [source.named(line) for line in told], source.told(lines)
-    frame = pandas.DataFrame(columns).astype({"cell": int, "events": int})
+    frame = pandas.DataFrame(columns)
     frame.attrs.update(settings=told, population=lines)
     return frame
 
@@ -130,11 +130,19 @@ def population(conditions, *, progress=None, **settings):
     with ExitStack() as stack, progress_bar(progress) as tell:
         sources = [(name, [stack.enter_context(source_of(each, gated(settings))) for each in _several(recordings)])
                    for name, recordings in conditions.items()]
-        text, events = native.population([(name, [source.place for source in of]) for name, of in sources], options, tell)
-    for _, of in sources:
-        for source in of:
-            text = source.named(text)
-    return Population(text, events)
+        found = native.population([(name, [source.place for source in of]) for name, of in sources], options, tell)
+    return Population(*_renamed(found, [source for _, of in sources for source in of]))
+
+
+def _renamed(found, sources):
+    """The same lists and dictionaries, with the names of the recordings in their texts."""
+    if isinstance(found, str):
+        for source in sources:
+            found = source.named(found)
+        return found
+    if isinstance(found, dict):
+        return {name: _renamed(value, sources) for name, value in found.items()}
+    return [_renamed(value, sources) for value in found] if isinstance(found, (list, tuple)) else found
 
 
 def _several(recordings):

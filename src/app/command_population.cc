@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/cli.h"
 #include "app/commands.h"
@@ -12,10 +13,9 @@
 #include "app/recording_batch.h"
 #include "case/user_error.h"
 #include "events/recording_settings.h"
-#include "report/population_json.h"
+#include "experiment/analyse_populations.h"
 #include "report/population_lines.h"
 #include "report/settings_text.h"
-#include "store/isolated.h"
 #include "store/standard_error.h"
 #include "store/standard_output.h"
 #include "store/stop_signal.h"
@@ -25,14 +25,6 @@ namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
-
-PopulationEvents read(const fs::path& recording, const PopulationOptions& options) {
-  check_is_there(recording);
-  const StiffnessMeasure by = stiffness_measure_of(options);
-  return read_isolated(recording, options.measuring, options.quiet, [&](const TellProgress& report_progress) {
-    return read_population_events(recording, options.measuring, by, report_progress);
-  });
-}
 
 void tell_recording(const RecordingReport& r) {
   const std::string name = one_line(r.recording.string(), 200);
@@ -68,13 +60,9 @@ int run(const PopulationCall& call) {
     for (const auto& recording : condition.recordings) check_is_there(recording);
   const ResultFolderGuard place(options.folder, {});
   PopulationFolder results(options, conditions, !call.no_picture);
-  PopulationAnalysis analysis(options, conditions);
-  for (std::size_t c = 0; c < conditions.size(); ++c)
-    for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
-      const PopulationEvents events = read(conditions[c].recordings[j], options);
-      tell_recording(analysis.add(c, j, events, go_on_unless_stopped));
-    }
-  const PopulationReport report = analysis.report();
+  const PopulationReport report =
+      analyse(conditions, options, until_signal(FileProgress("population", options.quiet)));
+  for (const RecordingReport& recording : report.recordings) tell_recording(recording);
   results.write(report);
   for (const auto& warning : report.warnings) tell(warning);
   if (!options.quiet) {

@@ -26,7 +26,7 @@ namespace rheocyte {
 namespace {
 
 CourseEvents read(const RecordingTask& task, const TimeCourseOptions& options) {
-  return read_isolated(task.recording, options.measuring, options.batch.quiet,
+  return read_isolated(task.recording, options.measuring, watch_of(task.recording, options.batch.quiet),
                        [&](const TellProgress& report_progress) {
                          return read_course_events(task.recording, options.measuring, report_progress);
                        });

@@ -11,8 +11,7 @@
 #include "case/to_path.h"
 #include "events/companion_origin.h"
 #include "report/population_companion.h"
-#include "report/population_json.h"
-#include "report/population_tables.h"
+#include "report/population_files.h"
 #include "store/own_file.h"
 #include "store/scratch.h"
 #include "store/standard_error.h"
@@ -101,9 +100,10 @@ void PopulationFolder::add_events(const RecordingReport& recording, const Popula
   const fs::path scratch = files_.add(companion, [companion] { check_companion(command, companion); });
   written_.insert(written_.end(), {table, companion});
   const std::string missing =
-      read_isolated(recording.recording, options_.measuring, options_.quiet, [&](const TellProgress& report_progress) {
-        return write_population_companion(scratch, recording, report_progress);
-      });
+      read_isolated(recording.recording, options_.measuring, watch_of(recording.recording, options_.quiet),
+                    [&](const TellProgress& report_progress) {
+                      return write_population_companion(scratch, recording, report_progress);
+                    });
   if (!missing.empty())
     tell(fmt::format("{}: uses so many of userdef0 to userdef9 itself that its companion lacks: {}.",
                      one_line(recording.recording.string(), 200), missing));

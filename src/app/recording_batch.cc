@@ -33,6 +33,10 @@ void check_is_there(const fs::path& recording) {
   if (fs::status(recording, error).type() == fs::file_type::not_found) refuse_missing(recording);
 }
 
+Watch watch_of(const fs::path& recording, bool quiet) {
+  return until_signal(FileProgress(one_line(recording.string(), 200), quiet));
+}
+
 int jobs_at_once(const BatchOptions& options) {
   return options.jobs > 0 ? options.jobs : std::max(1, allowed_processors());
 }

@@ -13,11 +13,11 @@
 
 #include "app/exit_codes.h"
 #include "case/user_error.h"
+#include "events/isolated_reading.h"
 #include "events/options.h"
 #include "events/recording_list.h"
 #include "store/isolated.h"
 #include "store/standard_error.h"
-#include "store/stop_signal.h"
 
 namespace rheocyte {
 
@@ -41,18 +41,8 @@ std::vector<RecordingTask> tasks_of(const BatchOptions& options);
 /// UserError if there is no such file: before anything is made for its results.
 void check_is_there(const std::filesystem::path& recording);
 
-/// What `read(report_progress)` gives of a recording, in a process of its own. UserError with the reason if it gives
-/// nothing.
-template <class Read>
-auto read_isolated(const std::filesystem::path& recording, const MeasuringOptions& measuring, bool quiet,
-                   const Read& read) {
-  Isolation limits;
-  limits.patience_s = measuring.patience_s.value_or(default_patience_s);
-  auto done = run_isolated(read, limits, FileProgress(one_line(recording.string(), 200), quiet));
-  if (done.stopped()) throw StoppedBySignal{};
-  if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));
-  return std::move(done.result);
-}
+/// Until a signal comes; the progress of a recording stands on the terminal, unless that is to be quiet.
+Watch watch_of(const std::filesystem::path& recording, bool quiet);
 
 /// As many as the options say, or the machine has processors.
 int jobs_at_once(const BatchOptions&);

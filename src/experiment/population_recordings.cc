@@ -4,26 +4,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 #include <set>
 
 #include "case/refuse_path.h"
 #include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
-#include "events/plausibility.h"
 #include "experiment/condition_reports.h"
-#include "experiment/shared_spreads.h"
-#include "experiment/unlike_recordings.h"
-#include "numeric/quantile.h"
 
 namespace rheocyte {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t areas_that_tell = 32;
 constexpr std::array measure_words{std::pair(std::string_view("asymmetry"), StiffnessMeasure::asymmetry),
                                    std::pair(std::string_view("odd-deformation"), StiffnessMeasure::odd_deformation),
                                    std::pair(std::string_view("deformation"), StiffnessMeasure::deformation)};
@@ -134,98 +127,5 @@ bool PopulationReport::has_failures() const {
 }
 
 std::vector<PopulationQuantity> PopulationReport::quantities() const { return quantities_told(recordings); }
-
-PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions)
-    : options_(options),
-      conditions_(std::move(conditions)),
-      by_(stiffness_measure_of(options)),
-      model_(population_model(options)) {}
-
-void PopulationAnalysis::check_new(const RecordingReport& recording, const PopulationEvents& events) {
-  const auto& areas = events.of(SeenMeasure::area_um2);
-  std::vector<double> first(areas.begin(), areas.begin() + std::ptrdiff_t(std::min(areas.size(), areas_that_tell)));
-  for (std::size_t k = 0; k < recordings_.size(); ++k)
-    if (recordings_[k].recorded == events.recorded && first_areas_[k] == first)
-      refuse_path(recording.recording, fmt::format("holds the same events as {}; each measurement counts once.",
-                                                   recordings_[k].recording.string()));
-  first_areas_.push_back(std::move(first));
-}
-
-RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
-                                              const PopulationEvents& events) const {
-  RecordingReport r;
-  r.recording = conditions_[condition].recordings[session];
-  r.condition = condition;
-  r.session = session;
-  r.flow = events.flow();
-  r.pixel_size_um = events.pixel_size_um;
-  r.medium = events.medium;
-  r.temperature_C = events.temperature_C;
-  r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
-  r.median_elongation = no_value;
-  if (events.has_inertia_ratios)
-    r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
-  r.direction = events.direction;
-  r.table = model_->table(events);
-  r.gates = events.gates;
-  r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
-  r.settings = events.settings;
-  r.warnings = events.warnings;
-  if (!events.gates_beside_the_model.empty() && events.gated > 0)
-    r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
-                                     events.gates_beside_the_model));
-  return r;
-}
-
-const RecordingReport& PopulationAnalysis::add(std::size_t condition, std::size_t session,
-                                               const PopulationEvents& events, const std::function<void()>& goes_on) {
-  RecordingReport r = described(condition, session, events);
-  if (events.events() == 0)
-    refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
-                                                  : "has no event inside the gates (" + events.gates + ").");
-  check_new(r, events);
-  check_outline_noise(r.recording, options_.outline_noise_um.value_or(0), events.pixel_size_um,
-                      {events.median_shape(), events.of(SeenMeasure::mode_7)});
-  model_->fit(events, r, goes_on);
-  return recordings_.emplace_back(std::move(r));
-}
-
-std::vector<std::string> PopulationAnalysis::unlike_recordings() const {
-  std::vector<RecordingReports> of_condition(conditions_.size());
-  for (const RecordingReport& r : recordings_) of_condition[r.condition].push_back(&r);
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < conditions_.size(); ++c) {
-    const std::string &name = conditions_[c].name, &first = conditions_.front().name;
-    if (const auto differences = differences_within(of_condition[c]); !differences.empty())
-      warnings.push_back(
-          fmt::format("the recordings of {} differ in {}; each is read by its own map, but the cells need not be the "
-                      "same there. How "
-                      "E grows as a power of the stress is told of three flow rates in one channel and one medium.",
-                      name, differences));
-    if (const auto differences = differences_between(of_condition.front(), of_condition[c]); !differences.empty())
-      warnings.push_back(
-          fmt::format("{} and {} differ in {}: their ratio is not that of the cells alone.", name, first, differences));
-  }
-  return warnings;
-}
-
-PopulationReport PopulationAnalysis::report() const {
-  PopulationReport report;
-  report.model = model_->name();
-  report.elongation = model_->elongation_text();
-  report.by = by_;
-  report.between_recordings = options_.between_recordings;
-  report.outline_noise_um = options_.outline_noise_um.value_or(0);
-  report.recordings = recordings_;
-  report.systematic_errors = model_->systematic_errors(recordings_);
-  report.warnings = unlike_recordings();
-  if (options_.shared_spread)
-    for (auto& remark : share_spreads(conditions_, report.level, report.recordings))
-      report.warnings.push_back(std::move(remark));
-  report.conditions = condition_reports(report.recordings, conditions_, report.level);
-  report.comparisons = comparisons_of(report.recordings, conditions_.size(),
-                                      {options_.paired, {report.level, options_.between_recordings}});
-  return report;
-}
 
 }  // namespace rheocyte

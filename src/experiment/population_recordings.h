@@ -1,13 +1,11 @@
 // What recordings of one or several conditions say about their cells (docs/populations.md).
 #pragma once
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "events/options.h"
-#include "experiment/population_model.h"
 #include "experiment/recording_report.h"
 #include "population/comparison.h"
 #include "population/stiffening.h"
@@ -76,34 +74,6 @@ struct PopulationReport {
   bool has_failures() const;
   /// Of any recording, in the order in which the model tells them.
   std::vector<PopulationQuantity> quantities() const;
-};
-
-/// Takes the recordings one after the other, in the order of the conditions.
-class PopulationAnalysis {
- public:
-  /// UserError if tables are missing.
-  PopulationAnalysis(const PopulationOptions& options, std::vector<PopulationCondition> conditions);
-
-  /// Fits the population of a recording; of cells with a cortex, `goes_on` is called from step to step. UserError: too
-  /// few events, none inside the gates, gates that leave a tail, the same measurement once more, an outline noise of
-  /// more than a tenth of the median radius.
-  const RecordingReport& add(std::size_t condition, std::size_t session, const PopulationEvents& events,
-                             const std::function<void()>& goes_on);
-  /// Of all that were added.
-  PopulationReport report() const;
-
- private:
-  /// In what recordings differ that belong together.
-  std::vector<std::string> unlike_recordings() const;
-  RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
-  void check_new(const RecordingReport& recording, const PopulationEvents& events);
-
-  PopulationOptions options_;
-  std::vector<PopulationCondition> conditions_;
-  StiffnessMeasure by_;
-  std::unique_ptr<PopulationModel> model_;
-  std::vector<RecordingReport> recordings_;
-  std::vector<std::vector<double>> first_areas_;  ///< of each recording: by these the same measurement is known again
 };
 
 }  // namespace rheocyte

@@ -7,11 +7,11 @@ namespace rheocyte {
 
 QuantityWords words_of(PopulationQuantity quantity) {
   constexpr std::array<QuantityWords, std::size_t(PopulationQuantity::count)> words{{
-      {"young_modulus_kPa", "E", "kPa"},
-      {"stiffness_kPa", "E + E2D/r0", "kPa"},
-      {"cortex_modulus_mN_per_m", "E2D", "mN/m"},
-      {"cortex_tension_mN_per_m", "tension", "mN/m"},
-      {"axial_tension_Pa", "axial tension", "Pa"},
+      {"young_modulus", "kPa", "E", "kPa"},
+      {"stiffness", "kPa", "E + E2D/r0", "kPa"},
+      {"cortex_modulus", "mN_per_m", "E2D", "mN/m"},
+      {"cortex_tension", "mN_per_m", "tension", "mN/m"},
+      {"axial_tension", "Pa", "axial tension", "Pa"},
   }};
   return words[std::size_t(quantity)];
 }

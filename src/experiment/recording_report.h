@@ -21,7 +21,7 @@ namespace rheocyte {
 /// tension is that of the cortex, the axial tension that of the liquid.
 enum class PopulationQuantity { young_modulus, stiffness, cortex_modulus, cortex_tension, axial_tension, count };
 struct QuantityWords {
-  std::string_view key;  ///< as in the records, with the unit
+  std::string_view name, suffix;  ///< of columns: the quantity, and its unit
   std::string_view symbol, unit;
 };
 QuantityWords words_of(PopulationQuantity quantity);
@@ -32,6 +32,7 @@ struct QuantityEstimate {
   RecordingMean mean;       ///< the variance is that of its events
   double spread = 0;        ///< standard deviation between cells
   double common_error = 0;  ///< standard error that recordings of one set-up share
+  std::optional<ParameterInterval> log_interval = {};  ///< of the mean; not given: its error is normal
 };
 
 /// Of cells with a cortex.

@@ -74,8 +74,10 @@ void refuse_most_beyond(const std::vector<double>& softer_than, RecordingReport&
 void tell_quantities(RecordingReport& r) {
   constexpr int e = number_of(PopulationParameter::mean_log_modulus);
   const CellDistribution& cells = r.fitted.cells;
-  r.quantities = {
-      {PopulationQuantity::young_modulus, {cells.mean_log_modulus, r.fitted.covariance(e, e)}, cells.modulus_spread}};
+  r.quantities = {{.quantity = PopulationQuantity::young_modulus,
+                   .mean = {cells.mean_log_modulus, r.fitted.covariance(e, e)},
+                   .spread = cells.modulus_spread,
+                   .log_interval = r.fitted.intervals[std::size_t(e)]}};
   r.log_radius = cells.mean_log_radius;
   r.radius_spread = cells.radius_spread;
 }

@@ -7,9 +7,11 @@
 #include <string>
 
 #include "case/to_path.h"
+#include "events/isolated_reading.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
-#include "python/isolated_reading.h"
+#include "python/objects.h"
+#include "python/python_watch.h"
 #include "report/time_course_table.h"
 #include "shelf/shipped_tables.h"
 #include "shelf/virtual_cells.h"
@@ -31,6 +33,7 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
   const MeasuringOptions& measuring = options.measuring;
   check_options(measuring);
   const auto report = interruptible([&](const std::atomic<bool>& stop) -> CourseReport {
+    const Watch watch = watched_by(progress, stop);
     const DynamicTable table = read_dynamic_table(dynamic_table_or_shipped(place));
     CourseTable courses(table, options.section);
     for (std::size_t i = 0; i < recordings.size(); ++i) {
@@ -39,26 +42,11 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
           report_progress((double(i) + fraction) / double(recordings.size()));
         });
       };
-      const auto events = read_isolated(recordings[i], measuring, work, progress, stop);
-      if (stop) return {};
-      courses.add(events, recordings[i].string(), contraction_um[i]);
+      courses.add(read_isolated(recordings[i], measuring, watch, work), recordings[i].string(), contraction_um[i]);
     }
-    struct Stopped {};
-    try {
-      return courses.report([&] {
-        if (stop) throw Stopped{};
-      });
-    } catch (const Stopped&) {
-      return {};
-    }
+    return courses.report([&watch] { watch.go_on(); });
   });
-  py::dict columns;
-  for (const auto& column : course_columns()) {
-    py::list values;
-    for (const CourseRow& row : report.rows) values.append(py::cast(column.value(row)));
-    columns[column.name.c_str()] = values;
-  }
-  return py::make_tuple(columns, report.remarks, report.lines);
+  return py::make_tuple(table_of(course_columns(), report.rows), report.remarks, report.lines);
 }
 
 // The file appears whole or not at all; the caller has looked whether one is there. The number of its events.
@@ -66,20 +54,16 @@ std::size_t synth(const std::string& text, const std::string& name, const std::v
                   const std::filesystem::path& place, const PythonProgress& progress) {
   SynthSpec spec = parse_synth_spec(text, name, settings);
   const RecordingProvenance provenance{std::string("rheocyte ") + version, text};
-  struct Stopped {};
   return interruptible([&](const std::atomic<bool>& stop) -> std::size_t {
+    const Watch watch = watched_by(progress, stop);
     const auto shapes = virtual_cells(spec, to_path(name).parent_path());
     AtomicFile file(place);
-    try {
-      const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double fraction) {
-        tell(progress, fraction);
-        if (stop) throw Stopped{};
-      });
-      file.publish();
-      return made.events;
-    } catch (const Stopped&) {
-      return 0;
-    }
+    const auto made = write_virtual_recording(spec, *shapes, provenance, file.scratch(), [&](double fraction) {
+      watch.progress(fraction);
+      watch.go_on();
+    });
+    file.publish();
+    return made.events;
   });
 }
 

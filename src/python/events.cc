@@ -9,12 +9,13 @@
 #include <utility>
 
 #include "events/event_pass.h"
+#include "events/isolated_reading.h"
 #include "extract/extraction.h"
 #include "extract/shape_words.h"
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
-#include "python/isolated_reading.h"
+#include "python/python_watch.h"
 #include "python/row_dict.h"
 #include "report/event_columns.h"
 #include "report/recommended_columns.h"
@@ -56,8 +57,9 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   const auto work = [&](const TellProgress& report_progress) {
     return extracted(file, options, memory, report_progress);
   };
-  const ExtractedEvents events = interruptible(
-      [&](const std::atomic<bool>& stop) { return read_isolated(file, options.measuring, work, progress, stop); });
+  const ExtractedEvents events = interruptible([&](const std::atomic<bool>& stop) {
+    return read_isolated(file, options.measuring, watched_by(progress, stop), work);
+  });
   py::dict said;
   said["shapes"] = shape_lines(events.summary.shapes);
   said["table"] = events.summary.table;

@@ -3,13 +3,16 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <nlohmann/json.hpp>
+
+#include "experiment/analyse_populations.h"
 #include "experiment/experiment_plan.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
-#include "python/isolated_reading.h"
-#include "report/population_json.h"
-#include "report/population_tables.h"
-#include "store/stop_signal.h"
+#include "python/objects.h"
+#include "python/python_watch.h"
+#include "report/population_columns.h"
+#include "report/population_files.h"
 
 namespace rheocyte {
 
@@ -17,50 +20,27 @@ namespace py = pybind11;
 
 namespace {
 
-/// Texts of population.json and of the tables of single events, one for each recording.
-struct PopulationTexts {
-  std::string json;
-  std::vector<std::string> events;
-};
-
 using NamedRecordings = std::vector<std::pair<std::string, std::vector<std::filesystem::path>>>;
 
+/// The record of population.json, the tables of its rows by their names, and those of single events, one for each
+/// recording.
 py::tuple population(const NamedRecordings& named, const PopulationOptions& options, const PythonProgress& progress) {
   check_options(options.measuring);
   std::vector<PopulationCondition> conditions;
-  std::size_t all = 0, done = 0;
-  for (const auto& [name, recordings] : named) {
-    conditions.push_back({name, recordings});
-    all += recordings.size();
-  }
+  for (const auto& [name, recordings] : named) conditions.push_back({name, recordings});
   check_conditions(conditions, options.paired);
-  const StiffnessMeasure by = stiffness_measure_of(options);
-  const auto texts = interruptible([&](const std::atomic<bool>& stop) -> PopulationTexts {
-    PopulationAnalysis analysis(options, conditions);
-    for (std::size_t c = 0; c < conditions.size(); ++c)
-      for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
-        const auto& file = conditions[c].recordings[j];
-        const auto work = [&](const TellProgress& report_progress) {
-          return read_population_events(file, options.measuring, by, [&](double fraction) {
-            report_progress((double(done) + fraction) / double(all));
-          });
-        };
-        const PopulationEvents events = read_isolated(file, options.measuring, work, progress, stop);
-        if (stop) return {};
-        try {
-          analysis.add(c, j, events, [&stop] {
-            if (stop) throw StoppedBySignal{};
-          });
-        } catch (const StoppedBySignal&) {
-          return {};
-        }
-      }
-    const PopulationReport report = analysis.report();
-    PopulationTexts made{population_json(report), {}};
-    for (const auto& recording : report.recordings) made.events.push_back(population_events_table(recording));
-    return made;
+  const auto report = interruptible([&](const std::atomic<bool>& stop) -> PopulationReport {
+    return analyse(conditions, options, watched_by(progress, stop));
   });
-  return py::make_tuple(texts.json, texts.events);
+  py::dict tables;
+  tables["recordings"] = table_of(recording_columns(report), report.recordings);
+  tables["conditions"] = table_of(condition_columns(report), report.conditions);
+  tables["comparisons"] = table_of(comparison_columns(report), report.comparisons);
+  tables["checks"] = table_of(check_row_columns(), check_rows(report));
+  py::list events;
+  for (const auto& recording : report.recordings)
+    events.append(table_of(shrunken_columns(), shrunken_events(recording)));
+  return py::make_tuple(python_of(population_record(report)), tables, events);
 }
 
 /// The table of the channels, and what follows from it in sentences.

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <string>
 
+#include "events/isolated_reading.h"
 #include "extract/moduli_recording.h"
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
-#include "python/isolated_reading.h"
+#include "python/python_watch.h"
 #include "report/moduli_columns.h"
 #include "store/thread.h"
 
@@ -44,7 +45,7 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
              return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings,
                      summary.settings_hash};
            };
-           return read_isolated(recording, options.measuring, work, progress, stop);
+           return read_isolated(recording, options.measuring, watched_by(progress, stop), work);
          })
       .to_python(memory);
 }

@@ -4,17 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 #include <new>
 #include <system_error>
 
 namespace rheocyte {
-
-std::size_t taken_addresses() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 struct SharedMemory::Place {
   int descriptor;

@@ -24,8 +24,4 @@ class SharedMemory {
   std::unique_ptr<Place> place_;
 };
 
-/// Addresses that this process has taken, in bytes: what libraries of others have reserved does not count as memory
-/// that reading needs.
-std::size_t taken_addresses();
-
 }  // namespace rheocyte

@@ -12,7 +12,7 @@ namespace rheocyte {
 namespace {
 
 std::string median_text(const ConditionQuantity& told) {
-  const auto [key, symbol, unit] = words_of(told.quantity);
+  const auto [name, suffix, symbol, unit] = words_of(told.quantity);
   const IntervalEstimate& e = told.log_mean;
   return fmt::format("{} {:.3g} {} ({:.3g} .. {:.3g})", symbol, std::exp(e.value), unit, std::exp(e.lower),
                      std::exp(e.upper));

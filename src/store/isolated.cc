@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
@@ -70,7 +71,11 @@ void limit(const Isolation& limits) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory needs terabytes of addresses
-  const rlimit memory{limits.memory_bytes, limits.memory_bytes};
+  // What libraries of others have reserved in this process does not count as memory that the work needs.
+  rlim_t taken_pages = 0;
+  std::ifstream("/proc/self/statm") >> taken_pages;
+  const rlim_t bytes = limits.memory_bytes + taken_pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+  const rlimit memory{bytes, bytes};
   ::setrlimit(RLIMIT_AS, &memory);
 #else
   static_cast<void>(limits);

@@ -9,13 +9,6 @@
 
 namespace rheocyte {
 
-namespace {
-
-/// Thrown through the work where it tells its progress.
-struct Stopped {};
-
-}  // namespace
-
 std::recursive_mutex& turn_of_work() {
   static std::recursive_mutex turn;
   return turn;
@@ -37,12 +30,12 @@ IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits
   using Kind = IsolatedEnd::Kind;
   const auto tell = [&](double fraction) {
     on_progress(fraction);
-    if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw Stopped();
+    if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw StoppedBySignal{};
   };
   const std::scoped_lock alone(turn_of_work());
   try {
     return {Kind::finished, work(tell)};
-  } catch (const Stopped&) {
+  } catch (const StoppedBySignal&) {
     return {Kind::stopped, {}};
   } catch (const UserError& error) {
     return {Kind::user_error, error.what()};

@@ -10,7 +10,8 @@
 #include "case/user_error.h"
 #include "events/polygon_file.h"
 #include "events/recording_settings.h"
-#include "report/population_json.h"
+#include "experiment/analyse_populations.h"
+#include "report/population_files.h"
 #include "report/population_lines.h"
 #include "report/settings_text.h"
 #include "serve/few_at_once.h"
@@ -79,24 +80,13 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
   PopulationOptions options = population_options(request.at("settings"));
   options.jobs = 1;
   std::vector<PopulationCondition> conditions;
-  double all = 0, done = 0;
   for (const Json& one : request.at("conditions")) {
     auto& condition = conditions.emplace_back(PopulationCondition{one.at("name").get<std::string>(), {}});
     for (const Json& path : one.at("recordings")) condition.recordings.push_back(path_of_text(path.get<std::string>()));
-    all += double(condition.recordings.size());
   }
   check_conditions(conditions, options.paired);
-  PopulationAnalysis analysis(options, conditions);
-  for (std::size_t c = 0; c < conditions.size(); ++c)
-    for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j, ++done) {
-      const auto events =
-          read_population_events(conditions[c].recordings[j], options.measuring, stiffness_measure_of(options),
-                                 [&](double fraction) { tell((done + 0.5 * fraction) / all); });
-      analysis.add(c, j, events, [] {});
-      tell((done + 1) / all);
-    }
-  const PopulationReport report = analysis.report();
-  reply.give(json_text({{"record", parse_sound_json(population_json(report))},
+  const PopulationReport report = analyse(conditions, options, {.progress = tell});
+  reply.give(json_text({{"record", population_record(report)},
                         {"lines", population_lines(report)},
                         {"command", request.at("command")}}));
 }

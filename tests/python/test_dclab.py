@@ -295,3 +295,14 @@ def test_polygon_filters_of_dclab_take_the_events_that_dclab_takes(program, in_a
     subprocess.run([program, "extract", in_a_buffer, "-o", tmp_path, "--quiet", "--polygon", tmp_path / "two.poly"], check=True)
     written = pytest.importorskip("pandas").read_csv(tmp_path / "cells_rheocyte.tsv", sep="\t", comment="#")
     assert list(written["state"] != "gated") == list(inside)
+
+
+def test_a_dataset_whose_title_has_quotes_has_a_population():
+    """The title stands in what is returned as it is; nothing is read from text."""
+    rng = np.random.default_rng(4)
+    with dclab.new_dataset({"area_um": 120 + 10 * rng.normal(size=60), "deform": 0.02 + 0.003 * rng.normal(size=60)}) as dataset:
+        dataset.title = 'the "soft" \\ ones'
+        dataset.config["setup"].update({"channel width": 20, "flow rate": 0.04, "chip region": "channel"})
+        dataset.config["imaging"]["pixel size"] = 0.34
+        found = rheocyte.population({"a": dataset}, by="deformation", viscosity_mPas=15)
+    assert found.recordings["recording"].tolist() == [found.record["recordings"][0]["recording"]] == [f"the dataset {dataset.title}"]

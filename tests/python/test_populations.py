@@ -17,35 +17,52 @@ CHECK = {"measure": "c3", "fitted": True, "fits": True, "distance": 0.02, "measu
 IMAGES = {"ln_modulus_from": 1.0, "step": 0.05, "counts": [1, 5, 20, 40, 20, 5, 1], "without": 3}
 
 
-def interval(value):
-    return {"value": value, "lower": 0.95 * value, "upper": 1.05 * value}
+BEYOND = {f"beyond_table_{side}": 0 for side in ("events", "softer", "longer", "larger", "fraction")}
+
+
+def interval(name, value):
+    return {name: value, f"{name}_low": 0.95 * value, f"{name}_high": 1.05 * value}
 
 
 def recording(condition, session, modulus):
-    found = {"median_young_modulus_kPa": interval(modulus), "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3,
-             "spread_of_ln_radius": 0.07, "correlation": 0.1, "kept_fraction": 0.9, "moduli_of_single_images": IMAGES}
-    return {"recording": f"{condition}{session}.rtdc", "condition": condition, "session": session, "population": found,
-            "events": {"fitted": 95}, "failure": None, "checks": [copy.deepcopy(CHECK)]}
+    return {"recording": f"{condition}{session}.rtdc", "condition": condition, "session": session, "events": 95,
+            **interval("young_modulus_median_kPa", modulus), "young_modulus_ln_spread": 0.2, "radius_median_um": 6.3,
+            "radius_ln_spread": 0.07, "correlation": 0.1, "kept_fraction": 0.9, "fits": True, "failure": None,
+            "moduli_of_single_images": IMAGES, "checks": [copy.deepcopy(CHECK)]}
 
 
 def condition(name, modulus):
-    return {"name": name, "recordings": 2, "events": 190, "median_young_modulus_kPa": interval(modulus),
-            "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3, "spread_of_ln_radius": 0.07}
+    return {"condition": name, "recordings": 2, "events": 190, **interval("young_modulus_median_kPa", modulus),
+            "young_modulus_ln_spread": 0.2, "young_modulus_interval_by": "scatter of the recordings", "radius_median_um": 6.3,
+            "radius_ln_spread": 0.07, **BEYOND}
+
+
+def quantity(name, unit, symbol):
+    return {"quantity": name, "median": f"{name}_median_{unit.replace('/', '_per_')}", "symbol": symbol, "unit": unit}
 
 
 @pytest.fixture
 def record():
-    comparison = {"control": "control", "treated": "drug", "quantity": "young_modulus_kPa", "test": "paired t", "ratio": interval(1.3), "p": 0.02,
-                  "degrees_of_freedom": 1, "ratio_by_sampling_alone": interval(1.3)}
+    comparison = {"control": "control", "treated": "drug", "quantity": "young_modulus", "test": "paired t", **interval("ratio", 1.3), "p": 0.02,
+                  "degrees_of_freedom": 1, "ratio_by_sampling_low": 1.235, "ratio_by_sampling_high": 1.365}
     return {"made_by": "rheocyte population", "level": 0.95, "model": "solid",
-            "quantities": [{"key": "young_modulus_kPa", "symbol": "E", "unit": "kPa"}], "conditions": [condition("control", 4), condition("drug", 5.2)],
+            "quantities": [quantity("young_modulus", "kPa", "E")], "conditions": [condition("control", 4), condition("drug", 5.2)],
             "comparisons": [comparison],
             "recordings": [recording("control", 1, 4.0), recording("control", 2, 4.1), recording("drug", 1, 5.1),
                            recording("drug", 2, 5.3)]}
 
 
+def table(rows):
+    """Columns of what is no list, as the program gives them: a missing number is NaN, a missing text empty."""
+    missing = {"failure": "", "young_modulus_interval_by": ""}
+    names = [name for name, value in rows[0].items() if not isinstance(value, (list, dict))] if rows else []
+    return {name: [missing.get(name, np.nan) if row.get(name) is None else row[name] for row in rows] for name in names}
+
+
 def shown(record):
-    return Population(json.dumps(record), [""] * len(record["recordings"]))
+    tables = {name: table(record[name]) for name in ("recordings", "conditions", "comparisons")}
+    tables["checks"] = table([{"recording": each["recording"], **check} for each in record["recordings"] for check in each["checks"]])
+    return Population(record, tables, [{"event": []} for _ in record["recordings"]])
 
 
 def test_a_population_tells_its_estimates_and_its_checks(record):
@@ -58,10 +75,8 @@ def test_a_population_tells_its_estimates_and_its_checks(record):
 
 
 def test_events_beyond_the_table_stand_beside_the_number(record):
-    record["conditions"][1]["beyond_the_table"] = {"softer": 80, "longer": 1, "larger": 0}
-    found = shown(record)
-    assert "events: 190, and beyond the table 30 % softer" in repr(found), "190 + 81 events; 0.4 % are not worth a word"
-    assert list(found.conditions["beyond_the_table"]) == [0, pytest.approx(81 / 271)]
+    record["conditions"][1].update(beyond_table_events=81, beyond_table_softer=80, beyond_table_longer=1)
+    assert "events: 190, and beyond the table 30 % softer" in repr(shown(record)), "190 + 81 events; 0.4 % are not worth a word"
 
 
 def test_a_recording_that_is_not_there_is_named(record):
@@ -74,7 +89,7 @@ def test_a_recording_that_is_not_there_is_named(record):
 
 
 def test_recordings_without_numbers_do_not_hold_their_checks(record):
-    record["recordings"][0].update(population=None, checks=[], failure="no population was found")
+    record["recordings"][0].update(young_modulus_median_kPa=None, checks=[], fits=False, failure="no population was found")
     found = shown(record)
     assert list(found.recordings["fits"]) == [False, True, True, True]
     assert "checks hold in 3 of 3 recordings with numbers" in repr(found)
@@ -85,31 +100,24 @@ def test_long_names_of_conditions_are_slanted_and_the_legend_is_true(record):
     name = "untreated control of the first of May"
     for each in record["recordings"][:2]:
         each["condition"] = name
-    record["conditions"][0]["name"] = record["comparisons"][0]["control"] = name
+    record["conditions"][0]["condition"] = record["comparisons"][0]["control"] = name
     figure = population_picture.draw(record)
     labels = figure.axes[0].get_xticklabels()
     assert labels[0].get_text() == "untreated control of th\u2026" and labels[0].get_rotation() == 40
     assert "by its recordings" in figure.legends[0].get_texts()[1].get_text()
     for each in record["conditions"]:
-        each["interval_by"] = "sampling of the events"
+        each["young_modulus_interval_by"] = "sampling of the events"
     assert "by sampling alone" in population_picture.draw(record).legends[0].get_texts()[1].get_text()
-
-
-def test_the_exponent_over_the_stress_is_a_column_of_the_conditions(record):
-    record["conditions"][1]["stiffening"] = {"exponent_of_modulus_over_stress": interval(0.4)}
-    conditions = shown(record).conditions
-    assert np.isnan(conditions["stiffening"][0]) and conditions["stiffening"][1] == 0.4
 
 
 def test_pictures_are_drawn_without_a_warning_also_where_numbers_are_missing(record, tmp_path):
     stiff = record["recordings"][3]
-    del stiff["population"]
-    stiff.update(failure="too stiff to be seen", young_modulus_above_kPa=30.0, checks=[])
+    stiff.update(failure="too stiff to be seen", young_modulus_above_kPa=30.0, young_modulus_median_kPa=None, checks=[])
     record["recordings"][1]["checks"][0]["fits"] = False
     alone = {**copy.deepcopy(record), "conditions": record["conditions"][:1], "comparisons": [],
              "recordings": record["recordings"][:1]}
     nothing = {**copy.deepcopy(alone), "recordings": [{**copy.deepcopy(stiff), "condition": "control"}]}
-    nothing["conditions"][0].pop("median_young_modulus_kPa")
+    nothing["conditions"][0]["young_modulus_median_kPa"] = None
     record["comparisons"] = []  # the program makes none of conditions without a number
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -128,6 +136,29 @@ def test_a_damaged_record_is_named(tmp_path):
         population_picture.read_record(tmp_path)
 
 
+FORMER = {"made_by": "rheocyte population", "schema": 1, "level": 0.95, "model": "solid", "warnings": [],
+          "quantities": [{"key": "young_modulus_kPa", "symbol": "E", "unit": "kPa"}],
+          "conditions": [{"name": "a", "recordings": 1, "events": 95, "interval_by": "sampling of the events",
+                          "median_young_modulus_kPa": {"value": 4, "lower": 3.8, "upper": 4.2}}],
+          "comparisons": [{"control": "a", "treated": "b", "quantity": "young_modulus_kPa", "test": "paired t", "p": None,
+                           "ratio": {"value": 1.3, "lower": None, "upper": None},
+                           "ratio_by_sampling_alone": {"value": 1.3, "lower": 1.2, "upper": 1.4}}],
+          "recordings": [{"recording": "a.rtdc", "condition": "a", "session": 1, "failure": None, "checks": [CHECK],
+                          "population": {"median_young_modulus_kPa": {"value": 4, "lower": 3.8, "upper": 4.2},
+                                         "spread_of_ln_modulus": 0.2, "median_radius_um": 6.3}}]}
+
+
+def test_a_record_of_the_version_before_is_drawn_with_the_names_of_today(tmp_path):
+    (tmp_path / "population.json").write_text(json.dumps(FORMER))
+    record = population_picture.read_record(tmp_path)
+    row = record["recordings"][0]
+    assert (row["young_modulus_median_kPa"], row["young_modulus_median_kPa_low"], row["young_modulus_ln_spread"]) == (4, 3.8, 0.2)
+    assert row["radius_median_um"] == 6.3 and record["conditions"][0]["condition"] == "a"
+    assert record["comparisons"][0]["ratio_by_sampling_high"] == 1.4
+    alone = {**record, "comparisons": []}
+    assert "by sampling alone" in population_picture.draw(alone).legends[0].get_texts()[1].get_text()
+
+
 def test_a_plan_shows_what_follows_from_it():
     plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
     assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
@@ -140,23 +171,17 @@ def with_cortex(record):
     """The same recordings as cells with a cortex, of which two numbers are told."""
     record = copy.deepcopy(record)
     record["model"] = "cortex"
-    record["quantities"] = [{"key": "stiffness_kPa", "symbol": "E + E2D/r0", "unit": "kPa"},
-                            {"key": "cortex_modulus_mN_per_m", "symbol": "E2D", "unit": "mN/m"}]
-    for each in [*record["conditions"], *(recording["population"] for recording in record["recordings"])]:
-        modulus = each.pop("median_young_modulus_kPa")
-        each["median_stiffness_kPa"], each["median_cortex_modulus_mN_per_m"] = modulus, interval(2 * modulus["value"])
+    record["quantities"] = [quantity("stiffness", "kPa", "E + E2D/r0"), quantity("cortex_modulus", "mN/m", "E2D")]
+    for each in [*record["conditions"], *record["recordings"]]:
+        modulus = each.pop("young_modulus_median_kPa")
+        each.update(interval("stiffness_median_kPa", modulus) | interval("cortex_modulus_median_mN_per_m", 2 * modulus))
     comparison = record["comparisons"][0]
-    record["comparisons"] = [{**comparison, "quantity": each["key"]} for each in record["quantities"]]
+    record["comparisons"] = [{**comparison, "quantity": each["quantity"]} for each in record["quantities"]]
     return record
 
 
-def test_cells_with_a_cortex_have_a_column_for_each_quantity(record):
-    found = shown(with_cortex(record))
-    assert found.recordings["stiffness_kPa"].tolist() == [4.0, 4.1, 5.1, 5.3]
-    assert found.recordings["cortex_modulus_mN_per_m_upper"][0] == pytest.approx(8.4)
-    assert found.conditions["cortex_modulus_mN_per_m"].tolist() == [8, 10.4]
-    assert found.comparisons["quantity"].tolist() == ["stiffness_kPa", "cortex_modulus_mN_per_m"]
-    text = repr(found)
+def test_cells_with_a_cortex_tell_each_quantity(record):
+    text = repr(shown(with_cortex(record)))
     assert "control: E + E2D/r0 4 kPa (3.8 .. 4.2), E2D 8 mN/m (7.6 .. 8.4), recordings: 2" in text
     assert "drug / control: E2D, 1.3 (1.23 .. 1.37), p = 0.02" in text
 
@@ -172,5 +197,11 @@ def test_errors_of_the_outline_are_told_and_must_be_small(tmp_path):
     rheocyte.synth(spec, tmp_path / "a.rtdc")
     found = rheocyte.population({"a": tmp_path / "a.rtdc"}, outline_noise_um=0.05)
     assert found.record["outline_noise_um"] == 0.05
+    row, = found.record["recordings"]
+    assert found.recordings["young_modulus_median_kPa"][0] == row["young_modulus_median_kPa"]
+    assert found.recordings["events"].dtype == int and found.recordings["fits"].dtype == bool
+    assert {*found.recordings} == {name for name, value in row.items() if not isinstance(value, (list, dict))}
+    assert found.check()["measure"].tolist() == [check["measure"] for check in row["checks"]]
+    assert found.events()["radius_um"].index.name == "event" and len(found.events()) == found.recordings["events"][0]
     with pytest.raises(UserError, match="outline_noise_um 2 is more than a tenth of it"):
         rheocyte.population({"a": tmp_path / "a.rtdc"}, outline_noise_um=2)

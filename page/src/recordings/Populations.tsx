@@ -7,7 +7,7 @@ import { Progress } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { items, recordings } from './model';
 import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from './population_runs';
-import { dotsOf, medianOf, sessionsOf } from './condition_dots';
+import { dotsOf, intervalOf, sessionsOf, type Interval } from './condition_dots';
 import { RecommendedMean } from './Conditions';
 import { moduli } from './moduli';
 import { recommendedOf } from './recommended';
@@ -22,28 +22,28 @@ const widest = 150;
 type Quantity = Population['quantities'][number];
 
 function Dot({ recording, quantity, x, up }: { recording: PopulationRecording; quantity: Quantity; x: number; up: (value: number) => number }) {
-  const { value, lower, upper } = medianOf(recording.population, quantity.key)!;
+  const { value, low, high } = intervalOf(recording, quantity.median)!;
   const fits = recording.checks.every((check) => check.fits);
   const said = `${recording.recording.split('/').pop()}: ${significant(value)} ${quantity.unit}${fits ? '' : ', does not fit'}`;
   return (
     <g class={fits ? 'session' : 'session misfit'}>
       <title>{said}</title>
-      {lower !== null && upper !== null && <path d={`M${x} ${up(lower)}V${up(upper)}`} />}
+      {low !== null && high !== null && <path d={`M${x} ${up(low)}V${up(high)}`} />}
       <circle cx={x} cy={up(value)} r={4} />
     </g>
   );
 }
 
 function Plot({ found, quantity, room }: { found: Population; quantity: Quantity; room: number }) {
-  const { dots, span, slots } = dotsOf(found, quantity.key);
+  const { dots, span, slots } = dotsOf(found, quantity.median);
   const slot = Math.min(widest, (room - left) / Math.max(1, slots));
   const up = (value: number) => height - inner.bottom - ((value - span.low) / (span.high - span.low)) * (height - inner.top - inner.bottom);
   return (
     <svg class="populations-plot" width={left + slot * slots + 8} height={height} role="img" aria-label={`Median ${quantity.symbol} of each recording, by condition`}>
       <Axis span={span} up={up} right={left + slot * slots} title={`Median ${quantity.symbol}, ${quantity.unit}`} />
-      {found.conditions.map((condition, k) => {
-        const { name } = condition;
-        const mean = medianOf(condition, quantity.key);
+      {found.conditions.map((row, k) => {
+        const { condition: name } = row;
+        const mean = intervalOf(row, quantity.median);
         const x = left + slot * (k + 0.86);
         return (
           <g key={name}>
@@ -52,7 +52,7 @@ function Plot({ found, quantity, room }: { found: Population; quantity: Quantity
             </text>
             {mean && (
               <g class="condition-mean">
-                {mean.lower !== null && mean.upper !== null && <path d={`M${x} ${up(mean.lower)}V${up(mean.upper)}`} />}
+                {mean.low !== null && mean.high !== null && <path d={`M${x} ${up(mean.low)}V${up(mean.high)}`} />}
                 <rect x={-4} y={-4} width={8} height={8} transform={`translate(${x} ${up(mean.value)}) rotate(45)`} />
               </g>
             )}
@@ -85,14 +85,14 @@ function Axis({ span, up, right, title }: { span: Span; up: (value: number) => n
   );
 }
 
-function interval(value: { lower: number | null; upper: number | null } | undefined): string {
-  return value && value.lower !== null && value.upper !== null ? `${significant(value.lower, 3)} to ${significant(value.upper, 3)}` : '–';
+function interval(value: Interval | undefined): string {
+  return value && value.low !== null && value.high !== null ? `${significant(value.low, 3)} to ${significant(value.high, 3)}` : '–';
 }
 
-function Table({ found, quantity: { key, symbol, unit } }: { found: Population; quantity: Quantity }) {
+function Table({ found, quantity: { quantity, median, symbol, unit } }: { found: Population; quantity: Quantity }) {
   const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
   const runs = useStore(moduli);
-  const isModulus = key === 'young_modulus_kPa' && all.some(({ item }) => recommendedOf(runs[item]));
+  const isModulus = quantity === 'young_modulus' && all.some(({ item }) => recommendedOf(runs[item]));
   return (
     <table class="conditions">
       <caption class="hidden">Populations by condition</caption>
@@ -105,26 +105,26 @@ function Table({ found, quantity: { key, symbol, unit } }: { found: Population; 
         </tr>
       </thead>
       <tbody>
-        {found.conditions.map((condition) => {
-          const mean = medianOf(condition, key);
+        {found.conditions.map((row) => {
+          const mean = intervalOf(row, median);
           return (
-            <Fragment key={condition.name}>
+            <Fragment key={row.condition}>
               <tr>
-                <th scope="row">{condition.name}</th>
+                <th scope="row">{row.condition}</th>
                 <td>{mean ? `${significant(mean.value, 3)} ${unit}` : '–'}</td>
                 <td>{interval(mean)}</td>
                 <td />
               </tr>
-              {isModulus && <RecommendedMean of={all.filter((item) => item.condition === condition.name)} title="Recommended E" />}
+              {isModulus && <RecommendedMean of={all.filter((item) => item.condition === row.condition)} title="Recommended E" />}
             </Fragment>
           );
         })}
-        {found.comparisons.filter(({ quantity }) => quantity === key).map(({ control, treated, ratio, ratio_by_sampling_alone: sampling, p }) => (
-          <tr key={treated} class="comparison">
-            <th scope="row">{`${treated} / ${control}`}</th>
-            <td>{significant(ratio.value, 3)}</td>
-            <td>{p === null ? `${interval(sampling)} *` : interval(ratio)}</td>
-            <td>{p === null ? 'none' : significant(p, 2)}</td>
+        {found.comparisons.filter((row) => row.quantity === quantity).map((row) => (
+          <tr key={row.treated} class="comparison">
+            <th scope="row">{`${row.treated} / ${row.control}`}</th>
+            <td>{significant(row.ratio, 3)}</td>
+            <td>{row.p === null ? `${interval(intervalOf(row, 'ratio', 'ratio_by_sampling'))} *` : interval(intervalOf(row, 'ratio'))}</td>
+            <td>{row.p === null ? 'none' : significant(row.p, 2)}</td>
           </tr>
         ))}
       </tbody>
@@ -162,7 +162,7 @@ export function Populations() {
   const [open, setOpen] = useState(false);
   const [chosen, choose] = useState('');
   const quantities = found?.record.quantities ?? [];
-  const quantity = quantities.find(({ key }) => key === chosen) ?? quantities[0];
+  const quantity = quantities.find((each) => each.quantity === chosen) ?? quantities[0];
   return (
     <div class="distributions populations">
       <div class="distribution-plot" ref={element} tabIndex={0} role="region" aria-label="Populations by condition">
@@ -180,10 +180,10 @@ export function Populations() {
         {quantities.length > 1 && (
           <label class="row">
             Shown
-            <select value={quantity?.key} onChange={({ currentTarget }) => choose(currentTarget.value)}>
-              {quantities.map(({ key, symbol }) => (
-                <option key={key} value={key}>
-                  {symbol}
+            <select value={quantity?.quantity} onChange={({ currentTarget }) => choose(currentTarget.value)}>
+              {quantities.map((each) => (
+                <option key={each.quantity} value={each.quantity}>
+                  {each.symbol}
                 </option>
               ))}
             </select>

@@ -1,5 +1,5 @@
 // Which recordings are whose sessions, and where the dots of fitted populations stand.
-import type { Estimate, Item, Population, PopulationCondition, PopulationRecording } from '../api';
+import type { Item, Population, PopulationCondition, PopulationRecording, PopulationRow } from '../api';
 import type { Span } from './scale';
 
 /** Recordings that have a condition, in the order of the list; those of a condition in the order of their replicates. */
@@ -18,21 +18,32 @@ export interface SessionDot {
   place: number;
 }
 
-/** Median of a quantity; nothing where it is not told. */
-export const medianOf = (of: Record<string, unknown> | undefined, key: string): Estimate | undefined => of?.[`median_${key}`] as Estimate | undefined;
+/** A number with the ends of its interval, which may be unknown. */
+export interface Interval {
+  value: number;
+  low: number | null;
+  high: number | null;
+}
+
+/** The number of a column with its interval, that of `ends` if it is another one; nothing where there is no number. */
+export function intervalOf(row: PopulationRow, column: string, ends = column): Interval | undefined {
+  const number = (name: string) => (row[name] ?? null) as number | null;
+  const value = number(column);
+  return value === null ? undefined : { value, low: number(`${ends}_low`), high: number(`${ends}_high`) };
+}
 
 /** Sessions side by side within the slot of their condition, left of its mean; an axis that holds all intervals. */
-export function dotsOf(found: Population, key: string): { dots: SessionDot[]; span: Span; slots: number } {
-  const names = found.conditions.map(({ name }) => name);
+export function dotsOf(found: Population, median: string): { dots: SessionDot[]; span: Span; slots: number } {
+  const names = found.conditions.map(({ condition }) => condition);
   const dots = found.recordings
-    .filter((recording) => medianOf(recording.population, key))
+    .filter((recording) => intervalOf(recording, median))
     .map((recording) => {
       const count = found.recordings.filter(({ condition }) => condition === recording.condition).length;
       return { recording, place: names.indexOf(recording.condition) + 0.16 + (0.56 * (recording.session - 0.5)) / count };
     });
-  const all = [...dots.map(({ recording }) => recording.population!), ...found.conditions].flatMap((each) => {
-    const modulus = medianOf(each, key);
-    return modulus ? [modulus.value, modulus.lower ?? modulus.value, modulus.upper ?? modulus.value] : [];
+  const all = [...dots.map(({ recording }) => recording), ...found.conditions].flatMap((each) => {
+    const modulus = intervalOf(each, median);
+    return modulus ? [modulus.value, modulus.low ?? modulus.value, modulus.high ?? modulus.value] : [];
   });
   const low = Math.min(...all);
   const high = Math.max(...all);

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rheocyte import population_picture
 from rheocyte.figures import style
 from rheocyte.figures.cases import make_folder
 from rheocyte.files import InputError, write_text
@@ -63,9 +64,9 @@ def draw(axes, rows, population):
     single = np.array([[float(row[name]) for name in NAMES] for row in rows[:SINGLE]])
     axes.errorbar(single[:, 0], single[:, 2], single[:, 3], single[:, 1], fmt="o", markersize=2, color="#9aa3ab", elinewidth=0.4,
                   label=f"single cells, by one image each ({len(single)} of them)", zorder=1)
-    young, cortex = (population[f"median_{name}"] for name in ("young_modulus_kPa", "cortex_modulus_mN_per_m"))
-    ends = [[[each["value"] - each["lower"]], [each["upper"] - each["value"]]] for each in (young, cortex)]
-    axes.errorbar([young["value"]], [cortex["value"]], ends[1], ends[0], fmt="D", markersize=4, color=style.LINEAR, elinewidth=1.4,
+    young, cortex = (population_picture.interval_of(population, name) for name in ("young_modulus_median_kPa", "cortex_modulus_median_mN_per_m"))
+    ends = [[[value - low], [high - value]] for value, low, high in (young, cortex)]
+    axes.errorbar([young[0]], [cortex[0]], ends[1], ends[0], fmt="D", markersize=4, color=style.LINEAR, elinewidth=1.4,
                   label=f"the population of {CELLS} cells, 95 %", zorder=3)
     axes.plot([YOUNG_KPA], [CORTEX_MN_PER_M], "+", markersize=8, color=style.NEO_HOOKEAN, label="true medians", zorder=4)
     axes.set(xlabel="$E$ (kPa)", ylabel="$E_{2D}$ (mN/m)", xlim=(0, 3 * YOUNG_KPA), ylim=(0, 3 * CORTEX_MN_PER_M))

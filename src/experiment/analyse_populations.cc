@@ -1,0 +1,159 @@
+#include "experiment/analyse_populations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "case/refuse_path.h"
+#include "events/isolated_reading.h"
+#include "events/plausibility.h"
+#include "experiment/condition_reports.h"
+#include "experiment/population_model.h"
+#include "experiment/shared_spreads.h"
+#include "experiment/unlike_recordings.h"
+#include "numeric/quantile.h"
+
+namespace rheocyte {
+namespace {
+
+constexpr std::size_t areas_that_tell = 32;
+
+/// Takes the recordings one after the other, in the order of the conditions.
+class PopulationAnalysis {
+ public:
+  PopulationAnalysis(const PopulationOptions& options, const std::vector<PopulationCondition>& conditions);
+
+  void add(std::size_t condition, std::size_t session, const PopulationEvents& events, const Watch& watch);
+  /// Of all that were added.
+  PopulationReport report() const;
+
+ private:
+  /// In what recordings differ that belong together.
+  std::vector<std::string> unlike_recordings() const;
+  RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
+  void check_new(const RecordingReport& recording, const PopulationEvents& events);
+
+  const PopulationOptions& options_;
+  const std::vector<PopulationCondition>& conditions_;
+  StiffnessMeasure by_;
+  std::unique_ptr<PopulationModel> model_;
+  std::vector<RecordingReport> recordings_;
+  std::vector<std::vector<double>> first_areas_;  ///< of each recording: by these the same measurement is known again
+};
+
+PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options,
+                                       const std::vector<PopulationCondition>& conditions)
+    : options_(options),
+      conditions_(conditions),
+      by_(stiffness_measure_of(options)),
+      model_(population_model(options)) {}
+
+void PopulationAnalysis::check_new(const RecordingReport& recording, const PopulationEvents& events) {
+  const auto& areas = events.of(SeenMeasure::area_um2);
+  std::vector<double> first(areas.begin(), areas.begin() + std::ptrdiff_t(std::min(areas.size(), areas_that_tell)));
+  for (std::size_t k = 0; k < recordings_.size(); ++k)
+    if (recordings_[k].recorded == events.recorded && first_areas_[k] == first)
+      refuse_path(recording.recording, fmt::format("holds the same events as {}; each measurement counts once.",
+                                                   recordings_[k].recording.string()));
+  first_areas_.push_back(std::move(first));
+}
+
+RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
+                                              const PopulationEvents& events) const {
+  RecordingReport r;
+  r.recording = conditions_[condition].recordings[session];
+  r.condition = condition;
+  r.session = session;
+  r.flow = events.flow();
+  r.pixel_size_um = events.pixel_size_um;
+  r.medium = events.medium;
+  r.temperature_C = events.temperature_C;
+  r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
+  r.median_elongation = no_value;
+  if (events.has_inertia_ratios)
+    r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
+  r.direction = events.direction;
+  r.table = model_->table(events);
+  r.gates = events.gates;
+  r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
+  r.settings = events.settings;
+  r.warnings = events.warnings;
+  if (!events.gates_beside_the_model.empty() && events.gated > 0)
+    r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
+                                     events.gates_beside_the_model));
+  return r;
+}
+
+void PopulationAnalysis::add(std::size_t condition, std::size_t session, const PopulationEvents& events,
+                             const Watch& watch) {
+  RecordingReport r = described(condition, session, events);
+  if (events.events() == 0)
+    refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
+                                                  : "has no event inside the gates (" + events.gates + ").");
+  check_new(r, events);
+  check_outline_noise(r.recording, options_.outline_noise_um.value_or(0), events.pixel_size_um,
+                      {events.median_shape(), events.of(SeenMeasure::mode_7)});
+  model_->fit(events, r, [&watch] { watch.go_on(); });
+  recordings_.push_back(std::move(r));
+}
+
+std::vector<std::string> PopulationAnalysis::unlike_recordings() const {
+  std::vector<RecordingReports> of_condition(conditions_.size());
+  for (const RecordingReport& r : recordings_) of_condition[r.condition].push_back(&r);
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < conditions_.size(); ++c) {
+    const std::string &name = conditions_[c].name, &first = conditions_.front().name;
+    if (const auto differences = differences_within(of_condition[c]); !differences.empty())
+      warnings.push_back(
+          fmt::format("the recordings of {} differ in {}; each is read by its own map, but the cells need not be the "
+                      "same there. How "
+                      "E grows as a power of the stress is told of three flow rates in one channel and one medium.",
+                      name, differences));
+    if (const auto differences = differences_between(of_condition.front(), of_condition[c]); !differences.empty())
+      warnings.push_back(
+          fmt::format("{} and {} differ in {}: their ratio is not that of the cells alone.", name, first, differences));
+  }
+  return warnings;
+}
+
+PopulationReport PopulationAnalysis::report() const {
+  PopulationReport report;
+  report.model = model_->name();
+  report.elongation = model_->elongation_text();
+  report.by = by_;
+  report.between_recordings = options_.between_recordings;
+  report.outline_noise_um = options_.outline_noise_um.value_or(0);
+  report.recordings = recordings_;
+  report.systematic_errors = model_->systematic_errors(recordings_);
+  report.warnings = unlike_recordings();
+  if (options_.shared_spread)
+    for (auto& remark : share_spreads(conditions_, report.level, report.recordings))
+      report.warnings.push_back(std::move(remark));
+  report.conditions = condition_reports(report.recordings, conditions_, report.level);
+  report.comparisons = comparisons_of(report.recordings, conditions_.size(),
+                                      {options_.paired, {report.level, options_.between_recordings}});
+  return report;
+}
+
+}  // namespace
+
+PopulationReport analyse(const std::vector<PopulationCondition>& conditions, const PopulationOptions& options,
+                         const Watch& watch) {
+  PopulationAnalysis analysis(options, conditions);
+  double all = 0, done = 0;
+  for (const auto& condition : conditions) all += double(condition.recordings.size());
+  for (std::size_t c = 0; c < conditions.size(); ++c)
+    for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
+      const auto& recording = conditions[c].recordings[j];
+      const auto read = [&](const TellProgress& report_progress) {
+        return read_population_events(recording, options.measuring, stiffness_measure_of(options),
+                                      [&](double fraction) { report_progress((done + 0.5 * fraction) / all); });
+      };
+      analysis.add(c, j, read_isolated(recording, options.measuring, watch, read), watch);
+      watch.progress(++done / all);
+    }
+  return analysis.report();
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,224 @@
+#include "report/population_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/joined.h"
+#include "report/column_part.h"
+#include "report/quantity_columns.h"
+
+namespace rheocyte {
+namespace {
+
+/// Events beyond the table are those of a recording or of a condition.
+template <class Row>
+void add_events_beyond(ColumnList<Row>& list) {
+  list.add_count("beyond_table_events", [](const Row& r) { return r.beyond.all(); });
+  for (int k = 0; k < int(TableSide::count); ++k)
+    list.add_count("beyond_table_" + std::string(name_of(TableSide(k))),
+                   [k](const Row& r) { return r.beyond.on(TableSide(k)); });
+  list.add({.name = "beyond_table_fraction", .sentence = "of the events inside the gates"}, [](const Row& r) {
+    return r.seen_events() > 0 ? double(r.beyond.all()) / double(r.seen_events()) : no_value;
+  });
+}
+
+template <class Row>
+void add_radius(ColumnList<Row>& list) {
+  list.add({.name = "radius_median_um", .unit = "um", .sentence = "of the undeformed cells"},
+           [](const Row& r) { return std::exp(r.log_radius); });
+  list.add({.name = "radius_ln_spread", .sentence = "standard deviation of ln r0 between cells"}, &Row::radius_spread);
+}
+
+void add_identity(const PopulationReport& report, ColumnList<RecordingReport>& list) {
+  using R = RecordingReport;
+  list.add({.name = "condition"}, [&report](const R& r) { return report.conditions[r.condition].name; });
+  list.add_count("session", [](const R& r) { return r.session + 1; });
+  list.add({.name = "recording"}, [](const R& r) { return r.recording.string(); });
+  list.add_count("events", &R::fitted_events);
+}
+
+void add_events(ColumnList<RecordingReport>& list) {
+  using R = RecordingReport;
+  list.add_count("events_recorded", &R::recorded);
+  list.add_count("events_gated", &R::gated);
+  list.add_count("events_without_numbers", &R::without_numbers);
+  add_events_beyond(list);
+  list.add({.name = "binned", .sentence = "whether events were counted in bins", .is_flag = true}, &R::is_binned);
+}
+
+void add_measuring_conditions(ColumnList<RecordingReport>& list) {
+  using R = RecordingReport;
+  list.add({.name = "table", .sentence = "look-up table"}, &R::table);
+  list.add({.name = "channel_width_um", .unit = "um"}, [](const R& r) { return r.flow.width_um; });
+  list.add({.name = "flow_rate_ul_per_s", .unit = "ul/s"}, [](const R& r) { return r.flow.rate_ul_s; });
+  list.add({.name = "flow_exponent", .sentence = "of the liquid's power law"},
+           [](const R& r) { return r.flow.exponent; });
+  list.add({.name = "viscosity_median_mPas", .unit = "mPa s"}, &R::median_viscosity_mPas);
+  list.add({.name = "medium", .sentence = "empty if the viscosity was given"}, &R::medium);
+  list.add({.name = "temperature_C", .unit = "degC", .sentence = "median of the events"}, &R::temperature_C);
+  list.add({.name = "wall_stress_Pa", .unit = "Pa", .sentence = "shear stress at the wall without a cell"},
+           &R::wall_stress_Pa);
+  list.add({.name = "pixel_size_um", .unit = "um"}, &R::pixel_size_um);
+  list.add({.name = "direction", .sentence = "in which the cells move along x: 1, -1, or 0 if that is unknown"},
+           &R::direction);
+  list.add({.name = "gates"}, &R::gates);
+  list.add({.name = "elongation_median", .sentence = "c2 of the outlines, else their inertia ratio"},
+           &R::median_elongation);
+}
+
+const Columns<FittedCells>& solid_columns() {
+  using F = FittedCells;
+  static const Columns<F> columns = [] {
+    ColumnList<F> list;
+    list.add({.name = "correlation", .sentence = "of ln r0 and ln E between cells"},
+             [](const F& f) { return f.cells.correlation; });
+    list.add({.name = "young_modulus_ln_single_image_error",
+              .sentence = "standard error of ln E of the median cell by a single image"},
+             &F::event_error);
+    list.add({.name = "log_likelihood"}, &F::log_likelihood);
+    return std::move(list).columns();
+  }();
+  return columns;
+}
+
+const Columns<CombinedReport>& combined_columns() {
+  using C = CombinedReport;
+  static const Columns<C> columns = [] {
+    ColumnList<C> list;
+    list.add({.name = "cortex_fraction", .sentence = "of E + E2D/r0, mean of the cells"},
+             [](const C& c) { return c.found.law.mean(2); });
+    list.add({.name = "tension_ratio", .sentence = "tension of the cortex over E2D, mean of the cells"},
+             [](const C& c) { return c.found.law.tension_ratio; });
+    list.add({.name = "axial_tension_over_wall_stress"}, [](const C& c) { return c.found.law.axial_tension; });
+    list.add({.name = "section"}, [](const C& c) { return c.section == Section::square ? "square" : "tube"; });
+    list.add_count("strangers", &C::strangers);
+    list.add({.name = "bulk_and_cortex_not_told_because"}, &C::not_told);
+    return std::move(list).columns();
+  }();
+  return columns;
+}
+
+double kept_fraction(const RecordingReport& r) {
+  if (!r.failure.empty()) return no_value;
+  return r.combined ? r.combined->found.kept_fraction : r.fitted.kept_fraction;
+}
+
+double modulus_limit(const std::optional<double>& log_modulus) { return log_modulus ? std::exp(*log_modulus) : no_value; }
+
+/// Whether there are numbers, and all checks hold.
+bool fits(const RecordingReport& r) {
+  return r.failure.empty() && std::ranges::all_of(r.checks, &MeasureCheck::fits);
+}
+
+void add_outcome(ColumnList<RecordingReport>& list) {
+  using R = RecordingReport;
+  list.add({.name = "kept_fraction", .sentence = "of the cells, by the gates"}, &kept_fraction);
+  list.add({.name = "young_modulus_below_kPa", .unit = "kPa", .sentence = "the median is below it"},
+           [](const R& r) { return modulus_limit(r.greatest_log_modulus); });
+  list.add({.name = "young_modulus_above_kPa", .unit = "kPa", .sentence = "the median is above it"},
+           [](const R& r) { return modulus_limit(r.fitted.least_log_modulus); });
+  list.add({.name = "fits", .sentence = "whether there are numbers and all checks hold", .is_flag = true}, &fits);
+  list.add({.name = "failure", .sentence = "why there is no number"}, &R::failure);
+}
+
+const char* interval_by(bool recordings) { return recordings ? "scatter of the recordings" : "sampling of the events"; }
+
+std::string names_of(const std::vector<std::filesystem::path>& recordings) {
+  std::vector<std::string> names;
+  for (const auto& recording : recordings) names.push_back(recording.string());
+  return joined(names, ", ");
+}
+
+}  // namespace
+
+const Columns<PopulationReport>& population_columns() {
+  using P = PopulationReport;
+  static const Columns<P> columns = [] {
+    ColumnList<P> list;
+    list.add({.name = "model"}, &P::model);
+    list.add({.name = "by", .sentence = "from what the stiffness follows, beside the area"},
+             [](const P& p) { return name_of(p.by); });
+    list.add({.name = "level", .sentence = "of the intervals"}, &P::level);
+    list.add({.name = "between_recordings", .sentence = "known standard deviation of ln E between recordings"},
+             [](const P& p) { return p.between_recordings.value_or(no_value); });
+    list.add({.name = "outline_noise_um", .unit = "um"}, &P::outline_noise_um);
+    list.add({.name = "elongation", .sentence = "how it is part of the model"}, &P::elongation);
+    return std::move(list).columns();
+  }();
+  return columns;
+}
+
+Columns<RecordingReport> recording_columns(const PopulationReport& report) {
+  using R = RecordingReport;
+  ColumnList<R> list;
+  add_identity(report, list);
+  for (const PopulationQuantity quantity : report.quantities())
+    list.add_all(columns_of_part<R, QuantityEstimate>(
+        columns_of_recordings(quantity, report.level), [quantity](const R& r) { return r.estimate(quantity); }));
+  add_radius(list);
+  if (report.model == "solid")
+    list.add_all(columns_of_part<R, FittedCells>(solid_columns(),
+                                                 [](const R& r) { return r.failure.empty() ? &r.fitted : nullptr; }));
+  else
+    list.add_all(columns_of_part<R, CombinedReport>(
+        combined_columns(), [](const R& r) { return r.failure.empty() && r.combined ? &*r.combined : nullptr; }));
+  add_outcome(list);
+  add_events(list);
+  add_measuring_conditions(list);
+  return std::move(list).columns();
+}
+
+Columns<ConditionReport> condition_columns(const PopulationReport& report) {
+  using C = ConditionReport;
+  ColumnList<C> list;
+  list.add({.name = "condition"}, &C::name);
+  list.add_count("recordings", &C::recordings);
+  list.add_count("events", &C::events);
+  for (const PopulationQuantity quantity : report.quantities())
+    list.add_all(columns_of_part<C, ConditionQuantity>(
+        columns_of_conditions(quantity), [quantity](const C& c) -> const ConditionQuantity* {
+          const auto found = std::ranges::find(c.quantities, quantity, &ConditionQuantity::quantity);
+          return found == c.quantities.end() ? nullptr : &*found;
+        }));
+  add_radius(list);
+  add_events_beyond(list);
+  list.add({.name = "elongation_median", .sentence = "mean of the recordings' medians"}, &C::elongation);
+  list.add({.name = "wall_stress_Pa", .unit = "Pa", .sentence = "geometric mean of the recordings"},
+           &C::wall_stress_Pa);
+  list.add({.name = "left_out", .sentence = "recordings in which no population was found"},
+           [](const C& c) { return names_of(c.left_out); });
+  list.add({.name = "without_numbers_by", .sentence = "the recording beyond the table for which there is no number"},
+           [](const C& c) { return c.without_numbers_by.string(); });
+  return std::move(list).columns();
+}
+
+Columns<ConditionComparison> comparison_columns(const PopulationReport& report) {
+  using C = ConditionComparison;
+  using D = ConditionDifference;
+  const auto number = [](double D::*of) { return [of](const C& c) { return c.difference.*of; }; };
+  const auto ratio = [](double D::*of) { return [of](const C& c) { return std::exp(c.difference.*of); }; };
+  ColumnList<C> list;
+  list.add({.name = "control"}, [&report](const C& c) { return report.conditions[c.control].name; });
+  list.add({.name = "treated"}, [&report](const C& c) { return report.conditions[c.treated].name; });
+  list.add({.name = "quantity"}, [](const C& c) { return words_of(c.quantity).name; });
+  list.add({.name = "test"}, [](const C& c) { return c.is_paired ? "paired t" : "Welch's t"; });
+  list.add_with_interval({.name = "ratio", .sentence = "of the medians, treated over control"}, ratio(&D::value),
+                         ratio(&D::lower), ratio(&D::upper));
+  list.add({.name = "p"}, number(&D::p));
+  list.add({.name = "interval_by"}, [](const C& c) {
+    return interval_by(std::isfinite(c.difference.lower) && !c.difference.is_by_sampling);
+  });
+  list.add({.name = "degrees_of_freedom"}, number(&D::freedom));
+  list.add_with_error({.name = "ln_ratio"}, number(&D::value), number(&D::standard_error));
+  list.add({.name = "ratio_by_sampling_low", .sentence = "as if recordings did not scatter"}, ratio(&D::sampling_lower));
+  list.add({.name = "ratio_by_sampling_high"}, ratio(&D::sampling_upper));
+  if (report.between_recordings) {
+    list.add({.name = "ratio_by_known_scatter_low", .sentence = "with the known scatter between recordings"},
+             ratio(&D::known_lower));
+    list.add({.name = "ratio_by_known_scatter_high"}, ratio(&D::known_upper));
+    list.add({.name = "p_by_known_scatter"}, number(&D::known_p));
+  }
+  return std::move(list).columns();
+}
+
+}  // namespace rheocyte
