@@ -26,7 +26,7 @@ from rheocyte.stiffness_tables import dclab_plugin as dclab_plugin
 # Populations
 from rheocyte.recordings import population as population
 from rheocyte.populations import Population as Population
-from rheocyte.populations import plan as plan
+from rheocyte.recordings import plan as plan
 
 # Small deformations
 from rheocyte.analytical_model import analytic as analytic

@@ -1,14 +1,11 @@
-"""Populations of cells: what rheocyte.population returns, and the planning of experiments."""
+"""Populations of cells and plans of experiments: what rheocyte.population and rheocyte.plan return."""
 
 import functools
 import html
-import io
 
 import numpy as np
 
-from rheocyte.arrays import number, numbers
 from rheocyte.errors import UserError
-from rheocyte.native_module import native
 
 
 class Population:
@@ -91,46 +88,9 @@ class Population:
         return "\n".join(lines)
 
 
-def plan(radius_um, young_modulus_kPa, *, spread=0.2, radius_spread=0.07, between_recordings=0.03, difference=0.1, power=0.8,
-         cells=500, mode_2=0.1, pixel_size_um=0.34, temperature_C=23, width_um=(15, 20, 30),
-         medium=("0.49% MC-PBS", "0.83% MC-PBS"), rate_ul_s=()):
-    """Which channel, flow rate and medium show a difference between conditions, as `rheocyte plan` says.
-
-    radius_um, young_modulus_kPa
-                    of the median cell
-    spread, radius_spread, between_recordings
-                    standard deviations of ln E and ln r0 between cells, and of ln E between recordings
-    difference, power, cells
-                    relative difference of E, the wanted probability to find it, cells of a recording
-    mode_2          how elongated the cells are: c2 of their outlines
-    pixel_size_um, temperature_C
-                    of the camera, and of the medium
-    width_um, medium, rate_ul_s
-                    what is compared; without rates those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
-
-    Returns a pandas.DataFrame with one row per channel: speed, viscosity, stress at the wall, deformation and mode_3 of the
-    median cell, fraction of the cells inside the table, the error of ln E by one image, sessions that are needed (inf: more than
-    100; NaN: the table has no such cells, or they are too stiff to be seen), and the Reynolds number.
-    attrs["lines"]: what is recommended, and what limits. UserError for a number that makes no sense, and where no channel shows
-    the cells.
-    """
-    import pandas
-
-    options = native.PlanOptions()
-    for name, value in {"radius_um": radius_um, "young_modulus_kPa": young_modulus_kPa, "spread": spread,
-                        "radius_spread": radius_spread, "between_recordings": between_recordings, "difference": difference,
-                        "power": power, "cells": cells, "mode_2": mode_2, "pixel_size_um": pixel_size_um,
-                        "temperature_C": temperature_C}.items():
-        setattr(options, name, number(value, name))
-    options.widths_um = np.atleast_1d(numbers(width_um, "width_um")).tolist()
-    options.media = [medium] if isinstance(medium, str) else list(medium)
-    for name, values in {"width_um": options.widths_um, "medium": options.media}.items():
-        if not values:
-            raise UserError(f"{name} is empty; give one or several.")
-    options.rates_ul_s = np.atleast_1d(numbers(rate_ul_s, "rate_ul_s")).tolist()
-    table, lines = native.plan(options)
-    frame = _plan_frame()(pandas.read_csv(io.StringIO(table), sep="\t"))
-    frame["recommended"] = frame["recommended"] == "yes"
+def framed_plan(table, lines):
+    """The channels of a plan; attrs["lines"]: what follows from them."""
+    frame = _plan_frame()(table)
     frame.attrs["lines"] = lines
     return frame
 

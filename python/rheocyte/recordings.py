@@ -11,7 +11,7 @@ from rheocyte.datasets import source_of
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 from rheocyte.paths import path
-from rheocyte.populations import Population
+from rheocyte.populations import Population, framed_plan
 from rheocyte.progress import progress_bar
 from rheocyte.settings import filled, gated, with_settings
 from rheocyte.specs import read_spec
@@ -143,6 +143,22 @@ def _renamed(found, sources):
     if isinstance(found, dict):
         return {name: _renamed(value, sources) for name, value in found.items()}
     return [_renamed(value, sources) for value in found] if isinstance(found, (list, tuple)) else found
+
+
+@with_settings(native.PlanOptions)
+def plan(radius_um, young_modulus_kPa, **settings):
+    """Which channel, flow rate and medium show a difference between conditions, as `rheocyte plan` says.
+
+    {settings}
+
+    Several widths, media and rates are compared, each with each. Returns a pandas.DataFrame with one row per channel: speed,
+    viscosity, stress at the wall, deformation and mode_3 of the median cell, inside_fraction (of the cells, inside the table),
+    the error of ln E by one image, sessions that are needed (inf: more than 100; NaN: the table has no such cells, or they are
+    too stiff to be seen), and the Reynolds number. attrs["lines"]: what is recommended, and what limits. UserError for a
+    number that makes no sense, and where no channel shows the cells.
+    """
+    cell = {"radius_um": number(radius_um, "radius_um"), "young_modulus_kPa": number(young_modulus_kPa, "young_modulus_kPa")}
+    return framed_plan(*native.plan(filled(native.PlanOptions(), {**cell, **settings})))
 
 
 def _several(recordings):

@@ -46,6 +46,12 @@ def population(
 {population}
     progress: _Progress = None,
 ) -> Population: ...
+def plan(
+    radius_um: float,
+    young_modulus_kPa: float,
+    *,
+{plan}
+) -> pandas.DataFrame: ...
 def synth(
     spec: _Path | Mapping[str, Any],
     file: _Path,
@@ -60,25 +66,31 @@ FORMS = {"table": "_Path", "min": "Mapping[str, float]", "max": "Mapping[str, fl
          "polygon": "Mapping[tuple[str, str], ArrayLike] | _Path | Sequence[_Path]"}
 
 
+SEVERAL = {"numbers": "ArrayLike", "texts": "str | Sequence[str]"}
+
+
 def type_of(setting):
     """The annotation of a setting that is given."""
     if setting["kind"] == "choice":
         return f"Literal[{', '.join(f'{chr(34)}{word}{chr(34)}' for word in setting['words'])}]"
     plain = "float | str" if setting["kind"] == "number" and setting["words"] else "float"
+    if setting["kind"] in SEVERAL and setting["name"] not in FORMS:
+        return SEVERAL[setting["kind"]]
     return FORMS.get(setting["name"], plain if setting["kind"] == "number" else "str")
 
 
-def arguments(options):
-    """The lines of a function's settings."""
+def arguments(options, own=()):
+    """The lines of a function's settings but those that it declares itself."""
     return "\n".join(f"    {name}: bool = False," if setting["kind"] == "flag" else f"    {name}: {type_of(setting)} | None = None,"
-                     for name, setting in declared(options).items())
+                     for name, setting in declared(options).items() if name not in own)
 
 
 def stub():
     """The text of recordings.pyi."""
     return STUB.format(extract=arguments(native.ExtractOptions), moduli=arguments(native.ModuliOptions),
                        time_course=arguments(native.TimeCourseOptions),
-                       population=arguments(native.PopulationOptions))
+                       population=arguments(native.PopulationOptions),
+                       plan=arguments(native.PlanOptions, ("radius_um", "young_modulus_kPa")))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,8 @@ import textwrap
 import warnings
 from collections.abc import Mapping
 
+import numpy as np
+
 from rheocyte.arrays import number, numbers, truth
 from rheocyte.errors import UserError
 from rheocyte.paths import path, word
@@ -29,17 +31,18 @@ def with_settings(options):
 
     def decorate(function):
         signature = inspect.signature(function)
-        *own, last = (each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD)
-        names = {each.name for each in (*own, last)}
+        own = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]
+        names = {each.name for each in own}
         added = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_default(setting))
-                 for name, setting in known.items()]
+                 for name, setting in known.items() if name not in names]
+        own[len(own) - sum(each.kind is each.KEYWORD_ONLY for each in own):0] = added
 
         @functools.wraps(function)
         def called(*args, **given):
             arguments = {name: given.pop(name) for name in [*given] if name in names}
             return function(*args, **arguments, **_named(given, known, function.__name__))
 
-        called.__signature__ = signature.replace(parameters=[*own, *added, last])
+        called.__signature__ = signature.replace(parameters=own)
         called.__doc__ = _PLACE.sub(lambda place: "\n".join(_documented(each, place[1]) for each in known.values()),
                                     function.__doc__)
         return called
@@ -104,6 +107,11 @@ def _taken(setting, value):
         return _FORMS[name](value, name)
     if kind == "flag":
         return truth(value, name)
+    if kind in _SEVERAL:
+        several = _SEVERAL[kind](value, name)
+        if not several:
+            raise UserError(f"{name} is empty; give one or several.")
+        return several
     if kind == "number" and not (setting["words"] and isinstance(value, str)):
         return number(value, name)
     return word(value, name)
@@ -134,6 +142,10 @@ def _corners(corners, name):
         raise UserError(f"{name}: the corners have the shape {pairs.shape}; wanted are pairs of numbers.")
     return ":".join(f"{x!r},{y!r}" for x, y in pairs.tolist())
 
+
+# Settings of several values, of which one may stand alone.
+_SEVERAL = {"numbers": lambda values, name: np.atleast_1d(numbers(values, name)).tolist(),
+            "texts": lambda values, name: [word(each, name) for each in ([values] if isinstance(values, str) else values)]}
 
 # Settings that are more than a number, a word or a flag here.
 _FORMS = {"table": lambda value, _: place_of_table(value), "min": _limits, "max": _limits, "polygon": _polygons}

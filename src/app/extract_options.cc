@@ -1,5 +1,6 @@
 #include "app/extract_options.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -23,9 +24,18 @@ struct SettingOption {
   CLI::Option* operator()(std::optional<double>*) const {
     return add_number_option(command, option, std::string(setting.former_option), description_of(setting), taking());
   }
+  CLI::Option* operator()(double* number) const {
+    return (*this)(static_cast<std::optional<double>*>(nullptr))->required(std::isnan(*number));
+  }
+  CLI::Option* operator()(std::vector<double>*) const {
+    return command.add_option_function<std::vector<double>>(option, taking(), description_of(setting))
+        ->delimiter(setting.separator)
+        ->allow_extra_args(false);
+  }
   CLI::Option* operator()(bool* flag) const { return command.add_flag(option, *flag, description_of(setting)); }
   CLI::Option* operator()(std::vector<std::string>* texts) const {
-    return command.add_option(option, *texts, description_of(setting))->allow_extra_args(false);
+    auto* const declared = command.add_option(option, *texts, description_of(setting))->allow_extra_args(false);
+    return setting.separator ? declared->delimiter(setting.separator) : declared;
   }
   template <class Text>
   CLI::Option* operator()(Text*) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 
 namespace rheocyte {
@@ -31,12 +32,18 @@ struct Taking {
     refuse(wanted);
   }
 
-  void operator()(std::optional<double>* number) const {
-    const double given = as<double>("a number");
+  double inside(double given) const {
     if (!setting.range.contains(given))
       throw UserError(fmt::format("{} {:g} is outside its range {} ({}).", what, given,
                                   range_text(setting.range, setting.unit), setting.sentence));
-    *number = given;
+    return given;
+  }
+
+  void operator()(std::optional<double>* number) const { *number = inside(as<double>("a number")); }
+  void operator()(double* number) const { *number = inside(as<double>("a number")); }
+  void operator()(std::vector<double>* numbers) const {
+    *numbers = as<std::vector<double>>("a list of numbers");
+    for (const double number : *numbers) inside(number);
   }
   void operator()(std::string* text) const {
     const auto* const number = std::get_if<double>(&value);
@@ -67,9 +74,21 @@ struct Reading {
     return std::string(**section == Section::square ? square_word : tube_word);
   }
   Found operator()(const bool* flag) const { return *flag ? Found(true) : std::nullopt; }
+  Found operator()(const double* number) const { return std::isnan(*number) ? std::nullopt : Found(*number); }
   template <class Value>
   Found operator()(const Value* value) const {
     return value->empty() ? std::nullopt : Found(*value);
+  }
+};
+
+/// Of places that have a value before one is given.
+struct OwnValue {
+  std::string operator()(const double* number) const { return std::isnan(*number) ? "" : fmt::format("{:g}", *number); }
+  std::string operator()(const std::vector<double>* numbers) const { return fmt::format("{:g}", fmt::join(*numbers, ", ")); }
+  std::string operator()(const std::vector<std::string>* texts) const { return joined(*texts, ", "); }
+  template <class Value>
+  std::string operator()(const Value*) const {
+    return {};
   }
 };
 
@@ -84,7 +103,13 @@ std::string option_of(const Setting& setting) {
 std::string description_of(const Setting& setting) {
   std::string text(setting.sentence);
   if (std::isfinite(setting.range.greatest)) text += fmt::format(" ({})", range_text(setting.range, setting.unit));
-  return setting.otherwise.empty() ? text : fmt::format("{}; default: {}", text, setting.otherwise);
+  const std::string otherwise = default_of(setting);
+  return otherwise.empty() ? text : fmt::format("{}; default: {}", text, otherwise);
+}
+
+std::string default_of(const Setting& setting) {
+  if (!setting.otherwise.empty()) return std::string(setting.otherwise);
+  return std::visit([](const auto* place) { return OwnValue()(place); }, setting.place);
 }
 
 void take(const Setting& setting, const SettingValue& value, const std::string& what) {

@@ -6,25 +6,18 @@
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "case/key.h"
+#include "experiment/plan_options.h"
 #include "measurement/viscosity.h"
 #include "population/power.h"
 
 namespace rheocyte {
 
-struct PlanOptions {
-  double radius_um = 0, young_modulus_kPa = 0;         ///< of the median cell
-  double spread = 0.2, radius_spread = 0.07;           ///< standard deviations of ln E and ln r0 between cells
-  double between_recordings = 0.03, difference = 0.1;  ///< scatter of ln E, and relative difference of E
-  double power = 0.8, cells = 500;                     ///< wanted; cells of a recording
-  double mode_2 = 0.1;                                 ///< how elongated the cells are
-  double pixel_size_um = 0.34, temperature_C = 23;
-  std::vector<double> widths_um{15, 20, 30};
-  std::vector<std::string> media{"0.49% MC-PBS", "0.83% MC-PBS"};
-  std::vector<double> rates_ul_s{};  ///< empty: those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s
-};
-
-/// UserError naming an option that makes no sense.
-void check_options(const PlanOptions& options);
+/// Of the median cell, and of the cells that the table has, in a recommended channel.
+inline constexpr Range recommended_deformation{0.01, 0.03};
+inline constexpr double recommended_inside = 0.95;
+/// Standard error of ln E by an image whose asymmetry is as great as its noise.
+inline constexpr double error_of_noisy_image = 1;
 
 /// One way to measure.
 struct PlannedChannel {
@@ -47,14 +40,12 @@ struct ExperimentPlan {
   std::optional<std::size_t> best;
   /// With the best one: power of 2 .. 10 sessions.
   std::vector<double> power;
-  std::vector<std::string> lines;  ///< what follows, in sentences
 };
 
-/// UserError if the tables are missing or no channel shows the cells.
+/// UserError if the tables are missing, the difference is 0, or no channel shows the cells.
 ExperimentPlan plan_experiment(const PlanOptions& options);
 
-/// A line for each channel, with a line of names.
-std::string plan_table(const ExperimentPlan& plan);
-inline constexpr std::string_view mark_of_plan = "width_um\tmedium\trate_ul_per_s\t";
+/// With which the sessions are counted.
+Experiment experiment_of(const PlanOptions& options, const PlannedChannel& channel);
 
 }  // namespace rheocyte

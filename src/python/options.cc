@@ -8,6 +8,8 @@
 #include <string>
 
 #include "events/recording_settings.h"
+#include "experiment/plan_settings.h"
+#include "report/settings_text.h"
 #include "python/bindings.h"
 #include "report/settings_text.h"
 
@@ -39,6 +41,7 @@ const Binding bind_options([](py::module_& module) {
   bind<ModuliOptions>(module, "ModuliOptions").def_readwrite("table", &ModuliOptions::table);
   bind<TimeCourseOptions>(module, "TimeCourseOptions");
   bind<PopulationOptions>(module, "PopulationOptions");
+  bind<PlanOptions>(module, "PlanOptions");
 });
 
 }  // namespace rheocyte

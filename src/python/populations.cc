@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/analyse_populations.h"
-#include "experiment/experiment_plan.h"
+#include "experiment/plan_words.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
 #include "python/objects.h"
 #include "python/python_watch.h"
+#include "report/plan_columns.h"
 #include "report/population_columns.h"
 #include "report/population_files.h"
 
@@ -47,30 +48,13 @@ py::tuple population(const NamedRecordings& named, const PopulationOptions& opti
 py::tuple plan(const PlanOptions& options) {
   const auto planned =
       interruptible([&](const std::atomic<bool>&) -> ExperimentPlan { return plan_experiment(options); });
-  return py::make_tuple(plan_table(planned), planned.lines);
+  return py::make_tuple(table_of(plan_columns(), planned.channels), plan_lines(options, planned));
 }
 
 }  // namespace
 
 const Binding bind_populations([](py::module_& module) {
   module.def("population", &population);
-  using O = PlanOptions;
-  py::class_<O>(module, "PlanOptions")
-      .def(py::init<>())
-      .def_readwrite("radius_um", &O::radius_um)
-      .def_readwrite("young_modulus_kPa", &O::young_modulus_kPa)
-      .def_readwrite("spread", &O::spread)
-      .def_readwrite("radius_spread", &O::radius_spread)
-      .def_readwrite("between_recordings", &O::between_recordings)
-      .def_readwrite("difference", &O::difference)
-      .def_readwrite("power", &O::power)
-      .def_readwrite("cells", &O::cells)
-      .def_readwrite("mode_2", &O::mode_2)
-      .def_readwrite("pixel_size_um", &O::pixel_size_um)
-      .def_readwrite("temperature_C", &O::temperature_C)
-      .def_readwrite("widths_um", &O::widths_um)
-      .def_readwrite("media", &O::media)
-      .def_readwrite("rates_ul_s", &O::rates_ul_s);
   module.def("plan", &plan);
 });
 

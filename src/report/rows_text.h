@@ -1,6 +1,7 @@
 // Rows as tab-separated text: the names of the columns, then a line for each row.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <string>
 
@@ -22,15 +23,15 @@ std::string header_text(const Columns<Row>& columns) {
   return text + "\n";
 }
 
-/// A cell without a value is `missing`.
+/// A cell that is NaN is `missing`.
 template <class Row, std::ranges::input_range Rows>
 std::string rows_text(const Columns<Row>& columns, const Rows& rows, const std::string& missing = "nan") {
   std::string text = header_text(columns);
   for (const Row& row : rows)
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CellValue value = columns[k].value(row);
-      const bool is_text = std::holds_alternative<std::string>(value);
-      text.append(has_value(value) ? table_cell(cell_text(columns[k], value)) : is_text ? "" : missing);
+      const auto* const number = std::get_if<double>(&value);
+      text.append(number && std::isnan(*number) ? missing : table_cell(cell_text(columns[k], value)));
       text.append(k + 1 < columns.size() ? "\t" : "\n");
     }
   return text;

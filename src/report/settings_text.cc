@@ -19,9 +19,11 @@ using Json = nlohmann::ordered_json;
 
 /// By the place; a text with a unit can be a number.
 std::string_view kind_of(const Setting& setting) {
-  constexpr std::array<std::string_view, std::variant_size_v<SettingPlace>> kinds{"number", "text",   "text",
-                                                                                  "texts",  "choice", "flag"};
-  return setting.unit.empty() ? kinds.at(setting.place.index()) : kinds.front();
+  constexpr std::string_view text = "text";
+  constexpr std::array<std::string_view, std::variant_size_v<SettingPlace>> kinds{
+      "number", text, text, "texts", "choice", "flag", "number", "numbers"};
+  const std::string_view kind = kinds.at(setting.place.index());
+  return kind == text && !setting.unit.empty() ? kinds.front() : kind;
 }
 
 Json end_of_range(double end) { return std::isfinite(end) ? Json(end) : Json(); }
@@ -30,6 +32,8 @@ SettingValue value_in(const Json& json, const std::string& name) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number()) return json.get<double>();
   if (json.is_string()) return json.get<std::string>();
+  if (json.is_array() && !json.empty() && std::ranges::all_of(json, [](const Json& one) { return one.is_number(); }))
+    return json.get<std::vector<double>>();
   const bool are_texts = json.is_array() && std::ranges::all_of(json, [](const Json& one) { return one.is_string(); });
   if (!are_texts) throw UserError(fmt::format("{} must be a number, a text, a list of texts, or true or false.", name));
   return json.get<std::vector<std::string>>();
@@ -42,9 +46,10 @@ struct AsOptions {
   std::string operator()(bool) const { return " " + option; }
   std::string operator()(double number) const { return with(fmt::format("{}", number)); }
   std::string operator()(const std::string& text) const { return with(text); }
-  std::string operator()(const std::vector<std::string>& texts) const {
+  template <class Value>
+  std::string operator()(const std::vector<Value>& values) const {
     std::string all;
-    for (const std::string& text : texts) all += with(text);
+    for (const Value& value : values) all += (*this)(value);
     return all;
   }
 };
@@ -63,7 +68,7 @@ Json declared_settings(const Settings& settings) {
                     {"least", end_of_range(s.range.least)},
                     {"greatest", end_of_range(s.range.greatest)},
                     {"words", s.words},
-                    {"default", s.otherwise},
+                    {"default", default_of(s)},
                     {"usual", s.is_usual},
                     {"former", s.former_name}});
   return list;

@@ -18,7 +18,7 @@ TEST_F(Plan, NamesAChannelTheSessionsAndWhatLimits) {
   const Ended ended = call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--width-um", "20,30", "--medium",
                             "0.49% MC-PBS", "--rate-ul-s", "0.04,0.12"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_TRUE(ended.out.starts_with("width_um\tmedium\trate_ul_per_s\t")) << ended.out;
+  EXPECT_TRUE(ended.out.starts_with("channel_width_um\tmedium\tflow_rate_ul_per_s\t")) << ended.out;
   EXPECT_NE(ended.out.find("paired t test"), std::string::npos);
   EXPECT_NE(ended.out.find("what limits is the scatter between recordings"), std::string::npos) << ended.out;
   expect_sentence(call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--medium", "honey"}),
@@ -29,6 +29,16 @@ TEST_F(Plan, NamesAChannelTheSessionsAndWhatLimits) {
   expect_sentence(call({"plan", "--radius-um", "60", "--young-modulus-kPa", "2"}), "no channel of these has cells");
   expect_sentence(call({"plan", "--radius-um", "6", "--young-modulus-kPa", "2", "--difference", "0"}),
                   "cannot be found");
+}
+
+TEST_F(Plan, ReplacesATableOfTheVersionBeforeAndRefusesOtherFiles) {
+  const std::vector<std::string> to_file{"--width-um", "20", "--rate-ul-s", "0.04", "-o", "plan.tsv"};
+  write_file(folder_.path() / "plan.tsv", "width_um\tmedium\trate_ul_per_s\tspeed_m_per_s\n");
+  EXPECT_EQ(plan(6.5, 2, to_file).exit_code, 0);
+  EXPECT_TRUE(content_of(folder_.path() / "plan.tsv").starts_with("channel_width_um\t"));
+  write_file(folder_.path() / "plan.tsv", "notes\n");
+  EXPECT_EQ(plan(6.5, 2, to_file).exit_code, 2);
+  expect_sentence(plan(0.01, 2), "--radius-um 0.01 is outside its range 0.1 .. 1000 um");
 }
 
 /// None of them is as it should be: of d = 0.0194 with 90.5 % inside and d = 0.0417 with 63 % the first is nearer.
