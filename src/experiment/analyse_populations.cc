@@ -8,6 +8,7 @@
 #include "case/refuse_path.h"
 #include "events/isolated_reading.h"
 #include "events/plausibility.h"
+#include "events/settings_hash.h"
 #include "experiment/condition_reports.h"
 #include "experiment/population_model.h"
 #include "experiment/shared_spreads.h"
@@ -31,6 +32,7 @@ class PopulationAnalysis {
  private:
   /// In what recordings differ that belong together.
   std::vector<std::string> unlike_recordings() const;
+  std::string hash_of_settings(const std::string& table, const PopulationEvents& events) const;
   RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
   void check_new(const RecordingReport& recording, const PopulationEvents& events);
 
@@ -59,6 +61,15 @@ void PopulationAnalysis::check_new(const RecordingReport& recording, const Popul
   first_areas_.push_back(std::move(first));
 }
 
+std::string PopulationAnalysis::hash_of_settings(const std::string& table, const PopulationEvents& events) const {
+  std::vector<std::string> lines = events.decisive;
+  lines.push_back("table: " + table);
+  lines.push_back(fmt::format("population of cells: {}, by {}, outline noise {} um{}{}", model_->name(), name_of(by_),
+                              options_.outline_noise_um.value_or(0), options_.no_bins ? ", without bins" : "",
+                              options_.shared_spread ? ", one spread for each condition" : ""));
+  return settings_hash(lines);
+}
+
 RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
                                               const PopulationEvents& events) const {
   RecordingReport r;
@@ -78,6 +89,7 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   r.gates = events.gates;
   r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
   r.settings = events.settings;
+  r.settings_hash = hash_of_settings(r.table, events);
   r.warnings = events.warnings;
   if (!events.gates_beside_the_model.empty() && events.gated > 0)
     r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",

@@ -61,6 +61,7 @@ struct RecordingReport {
   double log_radius = no_value, radius_spread = no_value;
   std::vector<MeasureCheck> checks;
   std::vector<std::string> settings, warnings;
+  std::string settings_hash;  ///< events/settings_hash.h
   std::string failure;  ///< why there is no number, in a sentence; else empty
   /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
   /// one would be a selection.

@@ -48,6 +48,7 @@ void add_events(ColumnList<RecordingReport>& list) {
 
 void add_measuring_conditions(ColumnList<RecordingReport>& list) {
   using R = RecordingReport;
+  list.add({.name = "settings_hash", .sentence = "the same for results that are comparable"}, &R::settings_hash);
   list.add({.name = "table", .sentence = "look-up table"}, &R::table);
   list.add({.name = "channel_width_um", .unit = "um"}, [](const R& r) { return r.flow.width_um; });
   list.add({.name = "flow_rate_ul_per_s", .unit = "ul/s"}, [](const R& r) { return r.flow.rate_ul_s; });

@@ -114,6 +114,7 @@ TEST_F(PopulationCommand, ErrorsOfTheOutlineArePartOfTheModel) {
   const auto known = of("known", {"--outline-noise-um", "0.1"}), unknown = of("unknown", {});
   EXPECT_EQ(record("known")["outline_noise_um"], 0.1);
   EXPECT_EQ(of("none", {"--outline-noise-um", "0"}), unknown);
+  EXPECT_NE(known["settings_hash"], unknown["settings_hash"]);
   EXPECT_EQ(of("jobs", {"--outline-noise-um", "0.1", "--jobs", "3"}), known);
   const auto& parameters = known["parameters"];
   // Four standard errors, and 1 % that the laws leave.

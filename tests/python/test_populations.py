@@ -163,8 +163,20 @@ def test_a_plan_shows_what_follows_from_it():
     plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
     assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
     assert type(plan[["width_um"]]) is type(plan)
+    assert plan["recommended"].dtype == bool and plan["channel_width_um"].tolist() == [20]
     with pytest.raises(UserError, match="medium is empty"):
         rheocyte.plan(6.5, 2, medium=[])
+    with pytest.raises(UserError, match="width_um 0 is outside its range"):
+        rheocyte.plan(6.5, 2, width_um=[20, 0])
+    with pytest.raises(UserError, match="radius_um is None"):
+        rheocyte.plan(None, 2)
+
+
+def test_a_plan_reads_the_former_name_of_its_temperature():
+    with pytest.warns(FutureWarning, match="temperature_C is now called temperature"):
+        former = rheocyte.plan(6.5, 2, width_um=20, rate_ul_s=0.04, temperature_C=30)
+    assert former.equals(rheocyte.plan(6.5, 2, width_um=20, rate_ul_s=0.04, temperature=30))
+    assert not former.equals(rheocyte.plan(6.5, 2, width_um=20, rate_ul_s=0.04))
 
 
 def with_cortex(record):
