@@ -23,6 +23,7 @@ SHARE_OF_PLACE = 0.5  # of the distance between conditions, over which their ses
 WORDS = {"ln A": "area", "c3": "asymmetry c3", "c4": "c4", "c5": "c5", "d": "deformation"}
 YOUNG = {"quantity": "young_modulus", "median": "young_modulus_median_kPa"}
 STIFFNESS = {"quantity": "stiffness", "median": "stiffness_median_kPa", "symbol": "E + E2D/r0", "unit": "kPa"}
+DAMAGE = (AttributeError, KeyError, TypeError)  # of a record that is not whole
 MOST_OFF = 1.0  # of a spread, drawn in the checks
 
 
@@ -37,7 +38,10 @@ def read_record(folder):
         raise InputError(f"{path} is damaged: {error}.") from error
     if not isinstance(record, dict) or record.get("made_by") != "rheocyte population":
         raise InputError(f"{path} is not a file of rheocyte population.")
-    return former_population.renamed(record)
+    try:
+        return former_population.renamed(record)
+    except DAMAGE as error:
+        raise InputError(f"{path} is damaged: {error}.") from error
 
 
 class Story:
@@ -355,7 +359,7 @@ def main():
     record = read_record(folder)
     try:
         figures = {"population": draw(record), "population-checks": draw_checks(record)}
-    except (KeyError, TypeError) as error:
+    except DAMAGE as error:
         raise InputError(f"{folder / 'population.json'} is damaged: {error}.") from error
     for name, figure in figures.items():
         if figure:

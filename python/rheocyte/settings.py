@@ -2,7 +2,6 @@
 
 import functools
 import inspect
-import json
 import re
 import textwrap
 import warnings
@@ -21,7 +20,7 @@ _PLACE = re.compile(r"^( *)\{settings\}$", re.MULTILINE)  # in the documentation
 
 def declared(options):
     """The settings of a class of options of the compiled module, as dictionaries by their names."""
-    return {setting["name"]: setting for setting in json.loads(options.declared())}
+    return {setting["name"]: setting for setting in options.declared()}
 
 
 def with_settings(options):
@@ -35,14 +34,14 @@ def with_settings(options):
         names = {each.name for each in own}
         added = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_default(setting))
                  for name, setting in known.items() if name not in names]
-        own[len(own) - sum(each.kind is each.KEYWORD_ONLY for each in own):0] = added
+        last = [each for each in own if each.kind is each.KEYWORD_ONLY]
 
         @functools.wraps(function)
         def called(*args, **given):
             arguments = {name: given.pop(name) for name in [*given] if name in names}
             return function(*args, **arguments, **_named(given, known, function.__name__))
 
-        called.__signature__ = signature.replace(parameters=own)
+        called.__signature__ = signature.replace(parameters=[*own[:len(own) - len(last)], *added, *last])
         called.__doc__ = _PLACE.sub(lambda place: "\n".join(_documented(each, place[1]) for each in known.values()),
                                     function.__doc__)
         return called

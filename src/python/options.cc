@@ -9,8 +9,8 @@
 
 #include "events/recording_settings.h"
 #include "experiment/plan_settings.h"
-#include "report/settings_text.h"
 #include "python/bindings.h"
+#include "python/objects.h"
 #include "report/settings_text.h"
 
 namespace rheocyte {
@@ -26,7 +26,7 @@ py::class_<Options> bind(py::module_& module, const char* name) {
       .def_static("declared",
                   [] {
                     Options none;
-                    return declared_settings(settings_of(none)).dump();
+                    return python_of(declared_settings(settings_of(none)));
                   })
       .def("take", [](Options& options, const std::string& setting, const SettingValue& value) {
         for (const Setting& one : settings_of(options))

@@ -134,6 +134,9 @@ def test_a_damaged_record_is_named(tmp_path):
     (tmp_path / "population.json").write_text("{}")
     with pytest.raises(rheocyte.UserError, match="not a file of rheocyte population"):
         population_picture.read_record(tmp_path)
+    (tmp_path / "population.json").write_text('{"made_by": "rheocyte population", "schema": 1}')
+    with pytest.raises(rheocyte.UserError, match="population.json is damaged"):
+        population_picture.read_record(tmp_path)
 
 
 FORMER = {"made_by": "rheocyte population", "schema": 1, "level": 0.95, "model": "solid", "warnings": [],
