@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from rheocyte.arrays import number, positive, truth
 from rheocyte.errors import UserError
 from rheocyte.native_module import native
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
 
@@ -65,7 +63,6 @@ def analytic(radius_um: float, *, young_modulus_kPa: float | None = None, cortex
         raise UserError(f"tension_ratio is {tension:g}; it must be 0 or more.")
     conditions = native.AnalyticConditions(good["channel_width_um"], good["tube_radius_um"], rate, mPas,
                                            truth(square_duct, "square_duct"))
-    text, contour = native.analytic(conditions, radius, good["young_modulus_kPa"],
+    values, contour = native.analytic(conditions, radius, good["young_modulus_kPa"],
                                     good["cortex_modulus_mN_per_m"], tension)
-    points = np.array([[float(value) for value in line.split(",")] for line in contour.splitlines()[1:]])
-    return SmallDeformation(json.loads(text), points)
+    return SmallDeformation(values, contour)

@@ -1,6 +1,5 @@
 """Cases: what is to be solved. Keys, units, ranges and sentences come from the declarations in src/case."""
 
-import json
 import os
 from collections.abc import Mapping
 
@@ -117,7 +116,7 @@ class Case:
     def _take(self, stated, replaced):
         """Completes what is stated; a stated key that loses its effect by one that replaces others is forgotten."""
         values = native.CaseValues.from_keys(list(stated.items()), list(replaced.items()))
-        nested = json.loads(values.json())
+        nested = values.nested()
         named = {_FORMER.get(name, name): value for name, value in (stated | replaced).items()}
         has_effect = dict(flat_keys(nested))
         self._keep({name: value for name, value in named.items() if name in has_effect}, values, nested)
@@ -164,7 +163,7 @@ class Case:
 
     def to_dict(self):
         """All keys that have an effect, nested as in a case file."""
-        return json.loads(self._values.json())
+        return self._values.nested()
 
     def to_toml(self):
         """A case file that gives the same case to the last bit."""

@@ -121,7 +121,7 @@ class Result:
     @property
     def _numbers(self):
         if self._known is None:
-            self._known = json.loads(self._native.json())
+            self._known = self._native.numbers()
         return self._known
 
     def __getattr__(self, name: str) -> Any:
@@ -147,7 +147,7 @@ class Result:
 
     def to_dict(self) -> dict[str, Any]:
         """The content of result.json."""
-        return json.loads(self._native.json())
+        return self._native.numbers()
 
     @property
     def status(self) -> str:

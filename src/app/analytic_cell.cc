@@ -93,7 +93,7 @@ std::string summary(const AnalyticCell& cell) {
   return text;
 }
 
-std::string json_text(const AnalyticCell& cell) {
+nlohmann::ordered_json to_json(const AnalyticCell& cell) {
   const auto& shape = cell.state.shape;
   const double R = cell.scales.length_um();
   nlohmann::ordered_json json;
@@ -122,13 +122,18 @@ std::string json_text(const AnalyticCell& cell) {
   json["duct"] = cell.input.conditions.square_duct ? "square" : "tube";
   json["within_limits"] = cell.remark().empty();
   json["remark"] = cell.remark();
-  return json_text(json) + "\n";
+  return json;
 }
 
-std::string contour_text(const AnalyticCell& cell) {
+Eigen::MatrixX2d contour_um(const AnalyticCell& cell) {
   Eigen::MatrixX2d points = cell.scales.length_um() *
                             surface_points(cell.cell, cell.strain, Eigen::ArrayXd::LinSpaced(contour_points, 0, pi));
   points(0, 1) = points(contour_points - 1, 1) = 0;  // sin(pi) is not zero in floating point
+  return points;
+}
+
+std::string contour_text(const AnalyticCell& cell) {
+  const Eigen::MatrixX2d points = contour_um(cell);
   std::string text(contour_mark);
   for (Eigen::Index i = 0; i < points.rows(); ++i) text += fmt::format("{:.10g},{:.10g}\n", points(i, 0), points(i, 1));
   return text;

@@ -1,5 +1,7 @@
 // `rheocyte analytic cell`: one cell of the analytical model in physical units.
 #pragma once
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,14 +38,15 @@ AnalyticCell analytic_cell(const AnalyticCellInput&);
 /// Lines for the user.
 std::string summary(const AnalyticCell&);
 
-/// One JSON object; keys are those of result.json where they mean the same.
-std::string json_text(const AnalyticCell&);
+/// Keys are those of result.json where they mean the same.
+nlohmann::ordered_json to_json(const AnalyticCell&);
 
 /// How a file of a contour begins.
 inline constexpr std::string_view contour_mark = "x_um,r_um\n";
 
-/// Meridian x_um,r_um from the front to the rear pole, at equal angles of the undeformed sphere; x counts from its
-/// centre. The same columns as contour.csv of `rheocyte solve`.
+/// Meridian (x, r) from the front to the rear pole, at equal angles of the undeformed sphere; x counts from its centre.
+Eigen::MatrixX2d contour_um(const AnalyticCell&);
+/// As text, the same columns as contour.csv of `rheocyte solve`.
 std::string contour_text(const AnalyticCell&);
 
 }  // namespace rheocyte

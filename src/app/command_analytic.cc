@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/key_option.h"
 #include "case/case_keys.h"
+#include "case/json_guard.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
 #include "store/own_file.h"
@@ -52,7 +53,7 @@ void run_cell(CellOptions& options) {
   const AnalyticCell cell = analytic_cell(options.input);
   if (!options.contour.empty())
     replace_own_file(options.contour, contour_text(cell), contour_mark, foreign(options.force));
-  print(options.json ? json_text(cell) : summary(cell));
+  print(options.json ? json_text(to_json(cell)) + "\n" : summary(cell));
 }
 
 void add_cell_command(CLI::App& analytic) {

@@ -60,8 +60,7 @@ int run(const PopulationCall& call) {
     for (const auto& recording : condition.recordings) check_is_there(recording);
   const ResultFolderGuard place(options.folder, {});
   PopulationFolder results(options, conditions, !call.no_picture);
-  const PopulationReport report =
-      analyse(conditions, options, until_signal(FileProgress("population", options.quiet)));
+  const PopulationReport report = analyse(conditions, options, until_signal(FileProgress("population", options.quiet)));
   for (const RecordingReport& recording : report.recordings) tell_recording(recording);
   results.write(report);
   for (const auto& warning : report.warnings) tell(warning);

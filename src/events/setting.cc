@@ -84,7 +84,9 @@ struct Reading {
 /// Of places that have a value before one is given.
 struct OwnValue {
   std::string operator()(const double* number) const { return std::isnan(*number) ? "" : fmt::format("{:g}", *number); }
-  std::string operator()(const std::vector<double>* numbers) const { return fmt::format("{:g}", fmt::join(*numbers, ", ")); }
+  std::string operator()(const std::vector<double>* numbers) const {
+    return fmt::format("{:g}", fmt::join(*numbers, ", "));
+  }
   std::string operator()(const std::vector<std::string>* texts) const { return joined(*texts, ", "); }
   template <class Value>
   std::string operator()(const Value*) const {

@@ -112,7 +112,8 @@ PlannedChannel planned_channel(const PlanOptions& options, const ModulusTables& 
 double distance_from_recommended(const PlannedChannel& c) {
   const auto beyond = [](double value, double limit) { return std::max(std::log(value / limit), 0.0); };
   return beyond(c.deformation, recommended_deformation.greatest) +
-         beyond(recommended_deformation.least, c.deformation) + beyond(1 - c.inside, 1 - recommended_inside) + beyond(c.reynolds_number, max_reynolds_number);
+         beyond(recommended_deformation.least, c.deformation) + beyond(1 - c.inside, 1 - recommended_inside) +
+         beyond(c.reynolds_number, max_reynolds_number);
 }
 
 std::optional<std::size_t> best_of(const std::vector<PlannedChannel>& channels) {

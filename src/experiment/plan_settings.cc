@@ -12,7 +12,12 @@ Setting number(std::string_view name, std::string_view label, double& place, Ran
 
 Setting numbers(std::string_view name, std::string_view label, std::vector<double>& place, Range range,
                 std::string_view sentence, std::string_view unit) {
-  return {.name = name, .label = label, .place = &place, .sentence = sentence, .unit = unit, .separator = ',',
+  return {.name = name,
+          .label = label,
+          .place = &place,
+          .sentence = sentence,
+          .unit = unit,
+          .separator = ',',
           .range = range};
 }
 

@@ -34,7 +34,8 @@ std::string channels_with_inertia_text(const std::vector<PlannedChannel>& all) {
     if (c.reynolds_number > max_reynolds_number) ++channels, greatest = std::max(greatest, c.reynolds_number);
   if (channels == 0) return {};
   return fmt::format(
-      "{} of these channels have Reynolds numbers above {:g}, up to {:.2g}, and are not recommended: the tables hold no "
+      "{} of these channels have Reynolds numbers above {:g}, up to {:.2g}, and are not recommended: the tables hold "
+      "no "
       "inertia of the liquid.",
       channels, max_reynolds_number, greatest);
 }
@@ -77,8 +78,9 @@ void refuse_all(const PlanOptions& options, const std::vector<PlannedChannel>& c
       "{:.2g} of its noise in one image ({:g} um, {}, {:.3g} ul/s, {:.3g} Pa at the wall). Give a narrower --width-um, "
       "a "
       "greater --rate-ul-s or a thicker --medium: {:.2g} times the stress at the wall does.",
-      options.radius_um, options.young_modulus_kPa, error_of_noisy_image / stiff->error_by_asymmetry, stiff->flow.width_um,
-      stiff->medium, stiff->flow.rate_ul_s, stiff->wall_stress_Pa, stiff->error_by_asymmetry / error_of_noisy_image));
+      options.radius_um, options.young_modulus_kPa, error_of_noisy_image / stiff->error_by_asymmetry,
+      stiff->flow.width_um, stiff->medium, stiff->flow.rate_ul_s, stiff->wall_stress_Pa,
+      stiff->error_by_asymmetry / error_of_noisy_image));
 }
 
 std::vector<std::string> plan_lines(const PlanOptions& options, const ExperimentPlan& plan) {

@@ -29,9 +29,9 @@ QuantityWords words_of(PopulationQuantity quantity);
 /// Of ln of a quantity among the cells of a recording.
 struct QuantityEstimate {
   PopulationQuantity quantity;
-  RecordingMean mean;       ///< the variance is that of its events
-  double spread = 0;        ///< standard deviation between cells
-  double common_error = 0;  ///< standard error that recordings of one set-up share
+  RecordingMean mean;                                  ///< the variance is that of its events
+  double spread = 0;                                   ///< standard deviation between cells
+  double common_error = 0;                             ///< standard error that recordings of one set-up share
   std::optional<ParameterInterval> log_interval = {};  ///< of the mean; not given: its error is normal
 };
 
@@ -62,7 +62,7 @@ struct RecordingReport {
   std::vector<MeasureCheck> checks;
   std::vector<std::string> settings, warnings;
   std::string settings_hash;  ///< events/settings_hash.h
-  std::string failure;  ///< why there is no number, in a sentence; else empty
+  std::string failure;        ///< why there is no number, in a sentence; else empty
   /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
   /// one would be a selection.
   bool is_beyond = false;

@@ -3,11 +3,14 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/analytic_cell.h"
 #include "case/user_error.h"
+#include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/objects.h"
 
 namespace rheocyte {
 
@@ -26,11 +29,11 @@ AnalyticConditions conditions(const std::optional<double>& width_um, const std::
   return c;
 }
 
-/// The numbers of `rheocyte analytic cell --json` and its contour as text.
+/// The numbers of `rheocyte analytic cell --json`, and its contour.
 py::tuple analytic(const AnalyticConditions& c, double radius_um, const std::optional<double>& young_modulus_kPa,
                    const std::optional<double>& cortex_modulus_mN_per_m, double tension_ratio) {
   const AnalyticCell cell = analytic_cell({c, radius_um, young_modulus_kPa, cortex_modulus_mN_per_m, tension_ratio});
-  return py::make_tuple(json_text(cell), contour_text(cell));
+  return py::make_tuple(python_of(to_json(cell)), array_of_points(contour_um(cell)));
 }
 
 }  // namespace

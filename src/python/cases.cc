@@ -13,6 +13,7 @@
 #include "case/user_error.h"
 #include "case/write_case.h"
 #include "python/bindings.h"
+#include "python/objects.h"
 
 namespace rheocyte {
 
@@ -105,7 +106,7 @@ const Binding bind_cases([](py::module_& module) {
   py::class_<Case>(module, "CaseValues")
       .def_static("from_file", &case_from_file)
       .def_static("from_keys", &case_from_keys)
-      .def("json", [](const Case& c) { return to_json(c).dump(); })
+      .def("nested", [](const Case& c) { return python_of(to_json(c)); })
       .def("toml", [](const Case& c) { return to_toml(c); })
       .def("hash", &case_hash)
       .def("is_stationary", [](const Case& c) { return c.time.scheme == TimeScheme::stationary; });

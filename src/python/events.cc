@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,8 +16,8 @@
 #include "python/bindings.h"
 #include "python/gathered_columns.h"
 #include "python/interruptible.h"
+#include "python/objects.h"
 #include "python/python_watch.h"
-#include "python/row_dict.h"
 #include "report/event_columns.h"
 #include "report/recommended_columns.h"
 
@@ -63,7 +64,7 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   py::dict said;
   said["shapes"] = shape_lines(events.summary.shapes);
   said["table"] = events.summary.table;
-  said["recommended"] = row_dict(recommended_columns(), events.summary);
+  said["recommended"] = python_of(recommended_json(events.summary));
   return events.gathered.to_python(memory, std::move(said));
 }
 

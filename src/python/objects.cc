@@ -26,7 +26,7 @@ py::object python_of(const nlohmann::ordered_json& tree) {
   if (tree.is_string()) return python_of(std::string_view(tree.get_ref<const std::string&>()));
   if (tree.is_boolean()) return py::bool_(tree.get<bool>());
   if (tree.is_number_integer()) return py::int_(tree.get<std::int64_t>());
-  if (tree.is_number()) return py::float_(tree.get<double>());
+  if (tree.is_number() && std::isfinite(tree.get<double>())) return py::float_(tree.get<double>());
   return py::none();
 }
 

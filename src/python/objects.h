@@ -12,7 +12,7 @@ namespace rheocyte {
 
 /// Bytes that are not UTF-8 are replaced.
 pybind11::str python_of(std::string_view text);
-/// Dictionaries, lists, texts, numbers, True, False and None.
+/// Dictionaries, lists, texts, numbers, True, False, and None also in place of numbers that are not finite.
 pybind11::object python_of(const nlohmann::ordered_json& tree);
 /// Counts are whole numbers; a number that is missing is NaN, a text "".
 pybind11::object python_of(const ColumnDescription& column, const CellValue& value);

@@ -7,9 +7,6 @@
 
 namespace rheocyte {
 
-/// The content of result.json as text.
-std::string json_text(const Result& result);
-
 /// The columns of contour.csv by their names.
 pybind11::dict surface_columns(const Result& result);
 

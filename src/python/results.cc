@@ -1,16 +1,16 @@
 // Solved states.
 #include <pybind11/stl.h>
 
-#include "case/json_guard.h"
+#include <nlohmann/json.hpp>
+
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/objects.h"
 #include "python/result_object.h"
 
 namespace rheocyte {
 
 namespace py = pybind11;
-
-std::string json_text(const Result& result) { return json_line(to_json(result)); }
 
 py::dict surface_columns(const Result& result) {
   py::dict columns;
@@ -52,7 +52,7 @@ py::dict surface_gradient(const Result& result, std::size_t gradient) {
 
 const Binding bind_results([](py::module_& module) {
   py::class_<Result>(module, "Result")
-      .def("json", [](const Result& r) { return json_text(r); })
+      .def("numbers", [](const Result& r) { return python_of(to_json(r)); })
       .def("surface", &surface_columns)
       .def("outlines", &outlines)
       .def("surface_gradient", &surface_gradient)

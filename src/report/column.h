@@ -8,6 +8,7 @@
 // the ends of its interval are x_low and x_high. Former names: report/former_names.h.
 #pragma once
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -91,11 +92,12 @@ class ColumnList {
     add(beside(about, "_low", "lower end of the interval"), low);
     return add(beside(about, "_high", "upper end of the interval"), high);
   }
-  /// Columns of a part of the row: of a member, or of what a function of the row returns. Names begin with `start`.
+  /// Columns of a part of the row: of a member, or of what a function of the row returns; rows for which that is a null
+  /// pointer have no value. Names begin with `start`.
   template <class Part, class Get>
   ColumnList& add_of(const Columns<Part>& columns, Get part, const std::string& start = {}) {
     for (const Column<Part>& column : columns) {
-      all_.push_back({column, [=](const Row& row) { return column.value(std::invoke(part, row)); }});
+      all_.push_back({column, value_of_part<Part>(column, part)});
       all_.back().name.insert(0, start);
     }
     return *this;
@@ -107,6 +109,20 @@ class ColumnList {
   Columns<Row> columns() && { return std::move(all_); }
 
  private:
+  template <class Part, class Get>
+  static std::function<CellValue(const Row&)> value_of_part(const Column<Part>& column, Get part) {
+    if constexpr (std::is_pointer_v<std::invoke_result_t<Get, const Row&>>)
+      return [value = column.value, part, none = none_like(column.value(Part{}))](const Row& row) {
+        const Part* const one = std::invoke(part, row);
+        return one ? value(*one) : none;
+      };
+    else
+      return [value = column.value, part](const Row& row) { return value(std::invoke(part, row)); };
+  }
+  static CellValue none_like(const CellValue& value) {
+    return std::holds_alternative<std::string>(value) ? CellValue(std::string())
+                                                      : CellValue(std::numeric_limits<double>::quiet_NaN());
+  }
   static ColumnDescription beside(ColumnDescription about, const std::string& ending, const std::string& words) {
     about.sentence = words + " of " + about.name;
     if (!about.label.empty()) about.label += ", " + words;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "report/column_part.h"
 #include "report/population_columns.h"
 
 namespace rheocyte {
@@ -124,7 +123,7 @@ const Columns<CheckRow>& check_row_columns() {
     ColumnList<CheckRow> list;
     list.add({.name = "recording"}, &CheckRow::recording);
     list.add({.name = "condition"}, &CheckRow::condition);
-    list.add_all(columns_of_part<CheckRow, MeasureCheck>(check_columns(), [](const CheckRow& row) { return &row.check; }));
+    list.add_of(check_columns(), [](const CheckRow& row) { return &row.check; });
     return std::move(list).columns();
   }();
   return columns;
@@ -140,22 +139,26 @@ const Columns<ShrunkenEvent>& shrunken_columns() {
               .sentence = "Young's modulus (kPa) of the event as one of the fitted population: drawn to its mean, for "
                           "pictures and never for tests",
               .role = "shrunken modulus",
+              .rank = 1,
               .digits = 5},
              [](const E& e) { return std::exp(e.cell.log_modulus); });
     list.add({.name = "young_modulus_ln_error",
               .sentence = "standard deviation of the natural logarithm of the shrunken modulus",
               .role = "sd of ln modulus",
+              .rank = 1,
               .digits = digits_of_errors},
              [](const E& e) { return e.cell.modulus_deviation; });
     list.add({.name = "radius_um",
               .unit = "um",
               .sentence = "radius (um) of the undeformed cell as one of the fitted population",
               .role = "shrunken radius",
+              .rank = 1,
               .digits = 5},
              [](const E& e) { return std::exp(e.cell.log_radius); });
     list.add({.name = "radius_ln_error",
               .sentence = "standard deviation of the natural logarithm of the shrunken radius",
               .role = "sd of ln radius",
+              .rank = 1,
               .digits = digits_of_errors},
              [](const E& e) { return e.cell.radius_deviation; });
     return std::move(list).columns();

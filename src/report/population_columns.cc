@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "case/joined.h"
-#include "report/column_part.h"
 #include "report/quantity_columns.h"
 
 namespace rheocyte {
@@ -104,12 +103,12 @@ double kept_fraction(const RecordingReport& r) {
   return r.combined ? r.combined->found.kept_fraction : r.fitted.kept_fraction;
 }
 
-double modulus_limit(const std::optional<double>& log_modulus) { return log_modulus ? std::exp(*log_modulus) : no_value; }
+double modulus_limit(const std::optional<double>& log_modulus) {
+  return log_modulus ? std::exp(*log_modulus) : no_value;
+}
 
 /// Whether there are numbers, and all checks hold.
-bool fits(const RecordingReport& r) {
-  return r.failure.empty() && std::ranges::all_of(r.checks, &MeasureCheck::fits);
-}
+bool fits(const RecordingReport& r) { return r.failure.empty() && std::ranges::all_of(r.checks, &MeasureCheck::fits); }
 
 void add_outcome(ColumnList<RecordingReport>& list) {
   using R = RecordingReport;
@@ -154,15 +153,13 @@ Columns<RecordingReport> recording_columns(const PopulationReport& report) {
   ColumnList<R> list;
   add_identity(report, list);
   for (const PopulationQuantity quantity : report.quantities())
-    list.add_all(columns_of_part<R, QuantityEstimate>(
-        columns_of_recordings(quantity, report.level), [quantity](const R& r) { return r.estimate(quantity); }));
+    list.add_of(columns_of_recordings(quantity, report.level), [quantity](const R& r) { return r.estimate(quantity); });
   add_radius(list);
   if (report.model == "solid")
-    list.add_all(columns_of_part<R, FittedCells>(solid_columns(),
-                                                 [](const R& r) { return r.failure.empty() ? &r.fitted : nullptr; }));
+    list.add_of(solid_columns(), [](const R& r) { return r.failure.empty() ? &r.fitted : nullptr; });
   else
-    list.add_all(columns_of_part<R, CombinedReport>(
-        combined_columns(), [](const R& r) { return r.failure.empty() && r.combined ? &*r.combined : nullptr; }));
+    list.add_of(combined_columns(),
+                [](const R& r) { return r.failure.empty() && r.combined ? &*r.combined : nullptr; });
   add_outcome(list);
   add_events(list);
   add_measuring_conditions(list);
@@ -176,11 +173,10 @@ Columns<ConditionReport> condition_columns(const PopulationReport& report) {
   list.add_count("recordings", &C::recordings);
   list.add_count("events", &C::events);
   for (const PopulationQuantity quantity : report.quantities())
-    list.add_all(columns_of_part<C, ConditionQuantity>(
-        columns_of_conditions(quantity), [quantity](const C& c) -> const ConditionQuantity* {
-          const auto found = std::ranges::find(c.quantities, quantity, &ConditionQuantity::quantity);
-          return found == c.quantities.end() ? nullptr : &*found;
-        }));
+    list.add_of(columns_of_conditions(quantity), [quantity](const C& c) -> const ConditionQuantity* {
+      const auto found = std::ranges::find(c.quantities, quantity, &ConditionQuantity::quantity);
+      return found == c.quantities.end() ? nullptr : &*found;
+    });
   add_radius(list);
   add_events_beyond(list);
   list.add({.name = "elongation_median", .sentence = "mean of the recordings' medians"}, &C::elongation);
@@ -206,12 +202,12 @@ Columns<ConditionComparison> comparison_columns(const PopulationReport& report) 
   list.add_with_interval({.name = "ratio", .sentence = "of the medians, treated over control"}, ratio(&D::value),
                          ratio(&D::lower), ratio(&D::upper));
   list.add({.name = "p"}, number(&D::p));
-  list.add({.name = "interval_by"}, [](const C& c) {
-    return interval_by(std::isfinite(c.difference.lower) && !c.difference.is_by_sampling);
-  });
+  list.add({.name = "interval_by"},
+           [](const C& c) { return interval_by(std::isfinite(c.difference.lower) && !c.difference.is_by_sampling); });
   list.add({.name = "degrees_of_freedom"}, number(&D::freedom));
   list.add_with_error({.name = "ln_ratio"}, number(&D::value), number(&D::standard_error));
-  list.add({.name = "ratio_by_sampling_low", .sentence = "as if recordings did not scatter"}, ratio(&D::sampling_lower));
+  list.add({.name = "ratio_by_sampling_low", .sentence = "as if recordings did not scatter"},
+           ratio(&D::sampling_lower));
   list.add({.name = "ratio_by_sampling_high"}, ratio(&D::sampling_upper));
   if (report.between_recordings) {
     list.add({.name = "ratio_by_known_scatter_low", .sentence = "with the known scatter between recordings"},

@@ -64,9 +64,7 @@ ordered_json population_record(const PopulationReport& report) {
   return record;
 }
 
-std::string population_json(const PopulationReport& report) {
-  return json_text(population_record(report)) + "\n";
-}
+std::string population_json(const PopulationReport& report) { return json_text(population_record(report)) + "\n"; }
 
 std::string population_table(const PopulationReport& report) {
   return rows_text(recording_columns(report), report.recordings);

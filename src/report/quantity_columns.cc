@@ -25,7 +25,8 @@ ColumnList<Row> quantity_list(PopulationQuantity quantity, const LogMedian& log_
   if (quantity != PopulationQuantity::axial_tension)  // one number for all cells
     list.add({.name = fmt::format("{}_mean_{}", name, words.suffix), .unit = words.unit, .sentence = "of the cells"},
              [log_median](const Row& row) { return std::exp(log_median(row).value + row.spread * row.spread / 2); });
-  list.add({.name = name + "_ln_spread", .sentence = "standard deviation of the logarithm between cells"}, &Row::spread);
+  list.add({.name = name + "_ln_spread", .sentence = "standard deviation of the logarithm between cells"},
+           &Row::spread);
   return list;
 }
 
@@ -39,8 +40,9 @@ Columns<QuantityEstimate> columns_of_recordings(PopulationQuantity quantity, dou
     return {e.mean.value, ends.lower, ends.upper};
   });
   const std::string log_name = std::string(words_of(quantity).name) + "_ln_median";
-  list.add_with_error({.name = log_name, .sentence = "natural logarithm of the median in its unit"},
-                      [](const E& e) { return e.mean.value; }, [](const E& e) { return std::sqrt(e.mean.variance); });
+  list.add_with_error(
+      {.name = log_name, .sentence = "natural logarithm of the median in its unit"},
+      [](const E& e) { return e.mean.value; }, [](const E& e) { return std::sqrt(e.mean.variance); });
   list.add({.name = log_name + "_common_error", .sentence = "standard error that recordings of one set-up share"},
            [](const E& e) { return e.common_error > 0 ? e.common_error : no_value; });
   return std::move(list).columns();
@@ -53,13 +55,14 @@ Columns<ConditionQuantity> columns_of_conditions(PopulationQuantity quantity) {
   const auto power = [](double Stiffening::*of) {
     return [of](const Q& q) { return q.stiffening ? (*q.stiffening).*of : no_value; };
   };
-  list.add({.name = name + "_interval_by"}, [](const Q& q) {
-    return q.is_by_recordings ? "scatter of the recordings" : "sampling of the events";
-  });
-  list.add_with_interval({.name = name + "_ln_scatter", .sentence = "standard deviation of ln of the medians between "
-                                                                    "recordings, beyond their sampling errors"},
-                         [](const Q& q) { return q.between.deviation; }, [](const Q& q) { return q.between.lower; },
-                         [](const Q& q) { return q.between.upper; });
+  list.add({.name = name + "_interval_by"},
+           [](const Q& q) { return q.is_by_recordings ? "scatter of the recordings" : "sampling of the events"; });
+  list.add_with_interval(
+      {.name = name + "_ln_scatter",
+       .sentence = "standard deviation of ln of the medians between "
+                   "recordings, beyond their sampling errors"},
+      [](const Q& q) { return q.between.deviation; }, [](const Q& q) { return q.between.lower; },
+      [](const Q& q) { return q.between.upper; });
   list.add_with_interval({.name = name + "_stress_exponent", .sentence = "of the quantity as a power of the stress"},
                          power(&Stiffening::exponent), power(&Stiffening::lower), power(&Stiffening::upper));
   list.add({.name = name + "_stress_exponent_degrees_of_freedom"}, power(&Stiffening::freedom));

@@ -8,8 +8,8 @@
 namespace rheocyte {
 
 /// What may be given: of each setting {"name", "option", "label", "sentence", "kind", "unit", "least", "greatest",
-/// "words", "default", "usual", "former"}; kind: "number", "text", "texts", "choice", "flag" or "numbers"; of a number with
-/// words these may be given, too; of a text they are examples. Ends of a range that has none are null.
+/// "words", "default", "usual", "former"}; kind: "number", "text", "texts", "choice", "flag" or "numbers"; of a number
+/// with words these may be given, too; of a text they are examples. Ends of a range that has none are null.
 nlohmann::ordered_json declared_settings(const Settings&);
 
 /// Puts values in their places: {"medium": "CellCarrier", "temperature": 23, "max": ["area_ratio=1.05"],

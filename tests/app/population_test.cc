@@ -76,8 +76,8 @@ TEST_F(PopulationCommand, ModuliOfSingleImagesScatterByCellsAndNoiseTogether) {
   }
   EXPECT_EQ(count, recording["events"]);
   const double inside = count - double(images["without"]), mean = sum / inside;
-  const double expected =
-      std::hypot(double(recording["young_modulus_ln_spread"]), double(recording["young_modulus_ln_single_image_error"]));
+  const double expected = std::hypot(double(recording["young_modulus_ln_spread"]),
+                                     double(recording["young_modulus_ln_single_image_error"]));
   EXPECT_NEAR(std::sqrt(squares / inside - mean * mean), expected, 0.15 * expected) << "four standard errors";
   EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png"));
 }
@@ -204,8 +204,7 @@ TEST_F(PopulationCommand, RecordingsAtThreeFlowRatesTellHowTheModulusGrowsWithTh
       << ended.err;
   const auto found = record()["conditions"][0];
   const double exponent = found["young_modulus_stress_exponent"];
-  EXPECT_NEAR(exponent, 0.5, 0.1)
-      << "four standard errors, and 1 % of each modulus that the laws of pixels leave";
+  EXPECT_NEAR(exponent, 0.5, 0.1) << "four standard errors, and 1 % of each modulus that the laws of pixels leave";
   EXPECT_LT(found["young_modulus_stress_exponent_low"], exponent);
   EXPECT_GT(found["young_modulus_stress_exponent_high"], exponent);
 }

@@ -34,8 +34,7 @@ TEST(PlanSettings, GoToTheirPlacesOrAreRefusedByName) {
   EXPECT_EQ(options.spread, 0.1);
   EXPECT_EQ(options.widths_um, (std::vector<double>{20, 30}));
   EXPECT_EQ(options.media, std::vector<std::string>{"water"});
-  for (const Json& wrong : {Json{{"width_um", {20, 0}}}, Json{{"spread", 5}}, Json{{"width_um", {"wide"}}}})
-    try {
+  for (const Json& wrong : {Json{{"width_um", {20, 0}}}, Json{{"spread", 5}}, Json{{"width_um", {"wide"}}}}) try {
       take_settings(settings, wrong);
       ADD_FAILURE() << wrong;
     } catch (const UserError& error) {

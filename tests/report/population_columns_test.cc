@@ -52,8 +52,9 @@ void expect_grammar(const std::set<std::string>& names) {
 TEST(PopulationColumns, OfAQuantityHaveTheSameNamesForSolidsAndCellsWithACortex) {
   const auto solids = report_of("solid", {recording(PopulationQuantity::young_modulus, 0)});
   const auto cortex = report_of("cortex", {recording(PopulationQuantity::young_modulus, 0)});
-  for (const auto& [some, others] : {std::pair(names_of(recording_columns(solids)), names_of(recording_columns(cortex))),
-                                     std::pair(names_of(condition_columns(solids)), names_of(condition_columns(cortex)))}) {
+  for (const auto& [some, others] :
+       {std::pair(names_of(recording_columns(solids)), names_of(recording_columns(cortex))),
+        std::pair(names_of(condition_columns(solids)), names_of(condition_columns(cortex)))}) {
     expect_grammar(some);
     std::size_t of_modulus = 0;
     for (const std::string& name : some) {
@@ -84,7 +85,8 @@ TEST(PopulationColumns, OfARecordingWithoutANumberAreNullAndNan) {
   failed.failure = "no number";
   const auto report = report_of("solid", {recording(PopulationQuantity::young_modulus, 0), failed});
   const auto rows = population_record(report)["recordings"];
-  for (const char* const name : {"young_modulus_median_kPa", "young_modulus_ln_spread", "correlation", "kept_fraction"}) {
+  for (const char* const name :
+       {"young_modulus_median_kPa", "young_modulus_ln_spread", "correlation", "kept_fraction"}) {
     EXPECT_FALSE(rows[0][name].is_null()) << name;
     EXPECT_TRUE(rows[1][name].is_null()) << name;
   }
@@ -101,8 +103,9 @@ TEST(PopulationColumns, OfFilesBeginWithTheirMarks) {
   r.shrunken_events = {7, 3};
   const std::string events = population_events_table(r);
   EXPECT_TRUE(events.starts_with(mark_of_population_events));
-  EXPECT_EQ(events, "event\tyoung_modulus_kPa\tyoung_modulus_ln_error\tradius_um\tradius_ln_error\n"
-                    "3\t2.2255\t0.2\t6.6859\t0.1\n7\t2.0138\t0.2\t6.0496\t0.1\n");
+  EXPECT_EQ(events,
+            "event\tyoung_modulus_kPa\tyoung_modulus_ln_error\tradius_um\tradius_ln_error\n"
+            "3\t2.2255\t0.2\t6.6859\t0.1\n7\t2.0138\t0.2\t6.0496\t0.1\n");
   const auto report = report_of("solid", {r});
   EXPECT_TRUE(population_table(report).starts_with(mark_of_population_table));
   EXPECT_TRUE(population_json(report).starts_with(mark_of_population_json));
