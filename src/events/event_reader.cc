@@ -4,6 +4,7 @@
 
 #include "events/direction_of_cells.h"
 #include "events/plausibility.h"
+#include "events/settings_hash.h"
 
 namespace rheocyte {
 
@@ -33,6 +34,7 @@ RecordingFacts facts_of(const Recording& recording, const ExtractSettings& setti
   facts.made_of = recording.metadata().text(made_of_key).value_or("");
   facts.recorded = recording.events();
   facts.settings = settings.lines();
+  facts.decisive = decisive_lines(settings, gates);
   facts.notes = recording.remarks();
   facts.notes.insert(facts.notes.end(), settings.warnings.begin(), settings.warnings.end());
   return facts;

@@ -42,6 +42,7 @@ struct RecordingFacts {
   std::size_t inertial = 0;             ///< events inside the gates with a Reynolds number above max_reynolds_number
   double greatest_reynolds_number = 0;  ///< of these
   std::vector<std::string> settings;    ///< channel, flow, pixels and viscosity, one line each
+  std::vector<std::string> decisive;    ///< the same and the gates, in full (settings_hash.h)
   std::vector<std::string> notes;       ///< what the file and its settings contradict, in sentences
 
   /// For store/bytes.h.
@@ -50,7 +51,7 @@ struct RecordingFacts {
     return std::tie(s.labels, s.conditions, s.pixel_size_um, s.medium, s.viscosity_model, s.temperature,
                     s.temperature_C, s.range_of_viscosity_model, s.area_from, s.deformation_from, s.gates, s.made_of,
                     s.direction, s.recorded, s.gated, s.cut, s.outside_temperature, s.inertial,
-                    s.greatest_reynolds_number, s.settings, s.notes);
+                    s.greatest_reynolds_number, s.settings, s.decisive, s.notes);
   }
 };
 

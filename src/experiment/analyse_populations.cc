@@ -73,22 +73,16 @@ std::string PopulationAnalysis::hash_of_settings(const std::string& table, const
 RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
                                               const PopulationEvents& events) const {
   RecordingReport r;
+  static_cast<RecordingFacts&>(r) = events;
   r.recording = conditions_[condition].recordings[session];
   r.condition = condition;
   r.session = session;
-  r.flow = events.flow();
-  r.pixel_size_um = events.pixel_size_um;
-  r.medium = events.medium;
-  r.temperature_C = events.temperature_C;
   r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
   r.median_elongation = no_value;
   if (events.has_inertia_ratios)
     r.median_elongation = median_of(events.of(events.has_outlines ? SeenMeasure::mode_2 : SeenMeasure::inertia_ratio));
-  r.direction = events.direction;
   r.table = model_->table(events);
-  r.gates = events.gates;
-  r.recorded = events.recorded, r.gated = events.gated, r.without_numbers = events.without_numbers;
-  r.settings = events.settings;
+  r.without_numbers = events.without_numbers;
   r.settings_hash = hash_of_settings(r.table, events);
   r.warnings = events.warnings;
   if (!events.gates_beside_the_model.empty() && events.gated > 0)

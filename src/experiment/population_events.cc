@@ -6,7 +6,6 @@
 #include "case/refuse_path.h"
 #include "events/event_pass.h"
 #include "events/event_reader.h"
-#include "events/settings_hash.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -44,7 +43,6 @@ class PopulationReader {
   PopulationReader(const Recording& recording, const MeasuringOptions& options, StiffnessMeasure by)
       : events_(recording, options, {.outlines = OutlineUse::if_there}) {
     describe_gates(events_.gates(), by, all_);
-    all_.decisive = decisive_lines(events_.settings(), events_.gates());
     all_.has_outlines = events_.has_outlines();
     if (all_.has_outlines)
       find_direction();

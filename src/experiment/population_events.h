@@ -38,7 +38,6 @@ struct PopulationEvents : RecordingFacts {
   std::vector<double> number;                                ///< of each event in the recording, from 1 on
   std::array<std::vector<double>, seen_measures> seen = {};  ///< 0: those that the recording does not have
   std::vector<std::string> warnings;                         ///< with the remarks on the recording
-  std::vector<std::string> decisive;                         ///< lines of events/settings_hash.h
 
   std::size_t events() const { return number.size(); }
   const ChannelFlow& flow() const { return conditions.flow; }  ///< its viscosity does not count
@@ -53,8 +52,7 @@ struct PopulationEvents : RecordingFacts {
         RecordingFacts::fields(s),
         std::tie(s.has_outlines, s.has_inertia_ratios, s.without_numbers, s.least_area_um2, s.greatest_area_um2,
                  s.least_deformation, s.greatest_deformation, s.gates_beside_the_model, s.number, s.seen[0], s.seen[1],
-                 s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.warnings,
-                 s.decisive));
+                 s.seen[2], s.seen[3], s.seen[4], s.seen[5], s.seen[6], s.seen[7], s.seen[8], s.seen[9], s.warnings));
   }
 };
 

@@ -22,7 +22,7 @@ const QuantityEstimate* RecordingReport::estimate(PopulationQuantity quantity) c
 }
 
 double RecordingReport::wall_stress_Pa() const {
-  ChannelFlow at_median = flow;
+  ChannelFlow at_median = conditions.flow;
   at_median.viscosity_mPas = median_viscosity_mPas;
   return wall_shear_stress_Pa(at_median);
 }

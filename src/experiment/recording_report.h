@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "case/channel_flow.h"
 #include "events/events_beyond.h"
+#include "events/recording_facts.h"
 #include "experiment/population_check.h"
 #include "infer/combined_population.h"
 #include "numeric/no_value.h"
@@ -45,24 +45,20 @@ struct CombinedReport {
 };
 
 /// One recording; its events stay outside.
-struct RecordingReport {
+struct RecordingReport : RecordingFacts {
   std::filesystem::path recording;
   std::size_t condition = 0, session = 0;  ///< counted from 0
-  ChannelFlow flow;
-  double pixel_size_um = 0, median_viscosity_mPas = 0, median_elongation = 0;
-  int direction = 0;
-  std::string medium;               ///< empty if the viscosity was given
-  double temperature_C = no_value;  ///< of its events, or their median; NaN if the viscosity was given
-  std::string table, gates;
-  std::size_t recorded = 0, gated = 0, without_numbers = 0, fitted_events = 0;
+  double median_viscosity_mPas = 0, median_elongation = 0;
+  std::string table;
+  std::size_t without_numbers = 0, fitted_events = 0;
   EventsBeyond beyond;  ///< the cells of the table
   bool is_binned = false;
   std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
   double log_radius = no_value, radius_spread = no_value;
   std::vector<MeasureCheck> checks;
-  std::vector<std::string> settings, warnings;
-  std::string settings_hash;  ///< events/settings_hash.h
-  std::string failure;        ///< why there is no number, in a sentence; else empty
+  std::vector<std::string> warnings;  ///< with the remarks on the recording
+  std::string settings_hash;          ///< events/settings_hash.h
+  std::string failure;                ///< why there is no number, in a sentence; else empty
   /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
   /// one would be a selection.
   bool is_beyond = false;

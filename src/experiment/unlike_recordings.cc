@@ -50,8 +50,8 @@ Traits traits_of(const RecordingReports& recordings) {
     return in_words.of(numbers);
   };
   Traits all;
-  all[trait_width] = words({relative_tolerance, 0, "um"}, [](const auto& r) { return r.flow.width_um; });
-  all[trait_rate] = words({relative_tolerance, 0, "ul/s"}, [](const auto& r) { return r.flow.rate_ul_s; });
+  all[trait_width] = words({relative_tolerance, 0, "um"}, [](const auto& r) { return r.conditions.flow.width_um; });
+  all[trait_rate] = words({relative_tolerance, 0, "ul/s"}, [](const auto& r) { return r.conditions.flow.rate_ul_s; });
   all[trait_temperature] = words({0, temperature_tolerance, "degC"}, [](const auto& r) { return r.temperature_C; });
   all[trait_pixel] = words({relative_tolerance, 0, "um"}, [](const auto& r) { return r.pixel_size_um; });
   // A liquid whose viscosity was given is known by that.

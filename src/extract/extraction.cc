@@ -231,7 +231,7 @@ std::vector<std::string> Extraction::lines() const {
 }
 
 std::string Extraction::settings_hash() const {
-  std::vector<std::string> lines = decisive_lines(events_.settings(), events_.gates());
+  std::vector<std::string> lines = events_.facts().decisive;
   lines.push_back(decisive_line(table().origin()));
   lines.push_back(fmt::format("area from {}, deformation from {}", shapes().area_from(), shapes().deformation_from()));
   if (const ElongatedLiquid* const elongated = event_shapes_.elongated_table())

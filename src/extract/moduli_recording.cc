@@ -169,7 +169,7 @@ class Fits {
   }
 
   std::string hash_of_settings(const ModuliOptions& options) const {
-    std::vector<std::string> lines = decisive_lines(events_.settings(), events_.gates());
+    std::vector<std::string> lines = events_.facts().decisive;
     const TableSpec& spec = table_.content.spec;
     lines.push_back(fmt::format("table: {} {}", spec.identifier, spec_hash(spec)));
     lines.push_back(way_text(options));

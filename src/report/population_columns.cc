@@ -49,10 +49,10 @@ void add_measuring_conditions(ColumnList<RecordingReport>& list) {
   using R = RecordingReport;
   list.add({.name = "settings_hash", .sentence = "the same for results that are comparable"}, &R::settings_hash);
   list.add({.name = "table", .sentence = "look-up table"}, &R::table);
-  list.add({.name = "channel_width_um", .unit = "um"}, [](const R& r) { return r.flow.width_um; });
-  list.add({.name = "flow_rate_ul_per_s", .unit = "ul/s"}, [](const R& r) { return r.flow.rate_ul_s; });
+  list.add({.name = "channel_width_um", .unit = "um"}, [](const R& r) { return r.conditions.flow.width_um; });
+  list.add({.name = "flow_rate_ul_per_s", .unit = "ul/s"}, [](const R& r) { return r.conditions.flow.rate_ul_s; });
   list.add({.name = "flow_exponent", .sentence = "of the liquid's power law"},
-           [](const R& r) { return r.flow.exponent; });
+           [](const R& r) { return r.conditions.flow.exponent; });
   list.add({.name = "viscosity_median_mPas", .unit = "mPa s"}, &R::median_viscosity_mPas);
   list.add({.name = "medium", .sentence = "empty if the viscosity was given"}, &R::medium);
   list.add({.name = "temperature_C", .unit = "degC", .sentence = "median of the events"}, &R::temperature_C);

@@ -14,7 +14,7 @@ RecordingReport recording(std::size_t condition, std::size_t session, double log
   r.recording = "r" + std::to_string(condition) + std::to_string(session) + ".rtdc";
   r.condition = condition;
   r.session = session;
-  r.flow = {20, 0.04, 15};
+  r.conditions.flow = {20, 0.04, 15};
   r.median_viscosity_mPas = 15;
   r.pixel_size_um = 0.34;
   r.medium = "CellCarrier";
@@ -33,7 +33,7 @@ RecordingReport failed(RecordingReport r, bool is_beyond) {
 }
 
 RecordingReport at_rate(RecordingReport r, double rate_ul_s) {
-  r.flow.rate_ul_s = rate_ul_s;
+  r.conditions.flow.rate_ul_s = rate_ul_s;
   return r;
 }
 
@@ -84,7 +84,7 @@ TEST(UnlikeRecordings, AreNamedByWhatDiffersWithNumbers) {
   const RecordingReport one = recording(0, 0, 1);
   RecordingReport warmer = one, wider = one, other = one;
   warmer.temperature_C = 25.5;
-  wider.flow.width_um = 30, wider.flow.rate_ul_s = 0.16;
+  wider.conditions.flow.width_um = 30, wider.conditions.flow.rate_ul_s = 0.16;
   other.medium = "water";
   EXPECT_EQ(differences_within({&one, &one}), "");
   EXPECT_EQ(differences_within({&one, &warmer}), "temperature (23 degC and 25.5 degC)");

@@ -18,7 +18,7 @@ RecordingReport recording(PopulationQuantity quantity, std::size_t session) {
   RecordingReport r;
   r.recording = "r" + std::to_string(session) + ".rtdc";
   r.session = session;
-  r.flow = {20, 0.04, 15};
+  r.conditions.flow = {20, 0.04, 15};
   r.median_viscosity_mPas = 15;
   r.fitted_events = 100;
   r.log_radius = std::log(6.5), r.radius_spread = 0.07;
