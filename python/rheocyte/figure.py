@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 from rheocyte import figures
-from rheocyte.files import InputError, run, save_figure, save_table
+from rheocyte.files import InputError, check_figure, run, save_figure, save_table
 
 DPI = 300
 
@@ -67,10 +67,11 @@ def make(number, folder, program, recordings=(), options=(), table=""):
         raise InputError("figure real-cells draws recordings; give them behind its name, for example "
                          "`rheocyte figure real-cells *.rtdc`.")
     make_folder(folder)
+    stem = folder / f"figure-{number}"
+    check_figure(stem)
     laboratory = Laboratory(program, folder / "cases", tell=lambda line: print(line, file=sys.stderr, flush=True),
                             recordings=list(recordings), options=list(options), table=table)
     figure, rows = drawing(number).make(laboratory)
-    stem = folder / f"figure-{number}"
     save_figure(figure, stem, DPI, palette=True, svg_dpi=180)
     save_table(stem.with_suffix(".csv"), rows)
     print(f"{stem}.png, .svg and .csv are drawn, after {time.monotonic() - start:.1f} s")

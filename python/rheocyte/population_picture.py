@@ -165,8 +165,8 @@ def draw_recording(axes, place, recording, median, colour):
     """A full dot, an open one where the checks do not hold, an arrow where there is a limit alone."""
     value, lower, upper = interval_of(recording, median)
     if not np.isfinite(value):
-        for name, end in (("young_modulus_above_kPa", 1.25), ("young_modulus_below_kPa", 0.8)):
-            if limit := recording.get(name):
+        for side, end in (("above", 1.25), ("below", 0.8)):
+            if limit := recording.get(median.replace("_median_", f"_{side}_")):
                 axes.annotate("", (place, limit * end), (place, limit), arrowprops={"arrowstyle": "->", "color": colour})
                 axes.plot(place, limit, "_", color=colour, markersize=6)
         return

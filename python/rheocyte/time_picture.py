@@ -14,7 +14,7 @@ from PIL import Image
 
 from rheocyte import page
 from rheocyte.contour import closed
-from rheocyte.files import InputError, number, read_result, read_table, run, save_figure, write_file
+from rheocyte.files import InputError, check_picture, number, read_result, read_table, run, save_figure, write_file
 from rheocyte.result_text import find, made_of
 from rheocyte.tube_picture import STYLE
 
@@ -136,7 +136,7 @@ def animation(history, contours, wall, radius):
         image = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
         frames.append(image.quantize(FRAME_COLOURS, Image.Quantize.FASTOCTREE, dither=0))
     film = io.BytesIO()
-    frames[0].save(film, "GIF", save_all=True, append_images=frames[1:], duration=FRAME_MS, loop=0)
+    frames[0].save(film, "GIF", save_all=True, append_images=frames[1:], duration=FRAME_MS, loop=0, comment="rheocyte")
     return film.getvalue()
 
 
@@ -145,6 +145,7 @@ def draw_folder(folder):
     result = read_result(folder / "result.json")
     history, contours = read_history(folder / "history.csv"), read_contours(folder / "contours.csv")
     save_figure(draw(result, history, contours), folder / "time")
+    check_picture(folder / "time.gif")
     write_file(folder / "time.gif", animation(history, contours, *seen_walls(result, folder)))
 
 

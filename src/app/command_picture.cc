@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "app/cli.h"
 #include "app/commands.h"
@@ -21,9 +22,11 @@ int redraw(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "result.json", error))
     throw UserError(
         fmt::format("{}: there is no result.json; give a folder that `rheocyte solve` has written.", folder.string()));
-  const auto failure = Drawing("picture").finish(folder);
-  if (failure.empty()) return exit_converged;
-  tell(fmt::format("rheocyte: the picture could not be drawn ({}).", one_line(failure, 300)));
+  const ChildResult drawn = Drawing("picture").finish(std::vector{folder.string()});
+  if (drawn.exit_code == exit_converged) return exit_converged;
+  if (drawn.exit_code == exit_user_error) throw UserError(drawn.last_line);
+  tell(fmt::format("rheocyte: the picture could not be drawn ({}).",
+                   drawn.last_line.empty() ? "the drawing program failed" : one_line(drawn.last_line, 300)));
   return exit_own_bug;
 }
 

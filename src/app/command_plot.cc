@@ -21,6 +21,7 @@
 #include "store/atomic_file.h"
 #include "store/file_writer.h"
 #include "store/isolated.h"
+#include "store/own_file.h"
 #include "store/python_package.h"
 #include "store/scratch.h"
 #include "store/standard_error.h"
@@ -59,6 +60,8 @@ class Plot {
   explicit Plot(const PlotOptions& options) : options_(options), stem_(picture_stem(options)), lines_(options) {}
 
   int run() {
+    for (const char* const ending : {".png", ".svg"})
+      check_replaceable_picture(to_path(stem_.string() + ending), "give another name with -o");
     json panels = json::array();
     for (const auto& recording : options_.inputs) {
       const auto name = fmt::format("events-{}", panels.size());

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array pictures{"population.png", "population.svg", "population-checks.png", "population-checks.svg"};
-constexpr const char* command = "population";
+constexpr const char *command = "population", *way_out = "move it away, or name another folder with -o";
 
 std::string events_name(const std::string& condition, std::size_t session) {
   return fmt::format("events_{}_{}", condition, session + 1);
@@ -55,7 +55,7 @@ PopulationFolder::PopulationFolder(const PopulationOptions& options, const std::
   check_replaceable(folder / "population.json", mark_of_population_json, Foreign::keep);
   check_replaceable(folder / "population.tsv", mark_of_population_table, Foreign::keep);
   for (const char* const picture : pictures)
-    if (with_pictures) check_replaceable_picture(folder / picture);
+    if (with_pictures) check_replaceable_picture(folder / picture, way_out);
   for (const auto& [name, recordings] : conditions)
     recordings_.insert(recordings_.end(), recordings.begin(), recordings.end());
   for (const auto& [name, recordings] : conditions)
@@ -120,7 +120,7 @@ void PopulationFolder::add_pictures(const std::string& json) {
     std::error_code error;
     if (!fs::exists(folder.path() / picture, error)) continue;
     const fs::path place = options_.folder / picture;
-    const fs::path scratch = files_.add(place, [place] { check_replaceable_picture(place); });
+    const fs::path scratch = files_.add(place, [place] { check_replaceable_picture(place, way_out); });
     fs::copy_file(folder.path() / picture, scratch, fs::copy_options::overwrite_existing, error);
     if (error) refuse_path(place, fmt::format("cannot be written ({}).", error.message()));
     written_.push_back(place);

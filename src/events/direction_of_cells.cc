@@ -23,10 +23,10 @@ int direction_of_cells(EventOutlines& outlines, double sign) {
     for (std::size_t event = first; event < last; ++event) {
       const PixelContour contour = outlines.outline(event);
       if (contour.size() < fewest_outline_points || outlines.is_cut(contour)) continue;
-      const HullAsymmetry hull = hull_asymmetry(measurer.find_hull(contour));
-      const double c = hull.mode_3;
-      if (!(std::abs(c) < 0.3) || hull.inertia_ratio() > min_inertia_ratio_of_red_cells)
-        continue;  // no cell, or a red one
+      const Polygon& hull = measurer.find_hull(contour);
+      const HullAsymmetry shape = hull_asymmetry(hull);
+      const double c = shape.mode_3, area_um2 = hull.moments().area * outlines.pixel_um() * outlines.pixel_um();
+      if (!(std::abs(c) < 0.3) || is_red_cell(shape.inertia_ratio(), area_um2)) continue;
       sum += c;
       squares += c * c;
       ++count;

@@ -50,12 +50,9 @@ constexpr std::array quantities_of_law{
 };
 
 QuantityEstimate estimate_of(const CombinedPopulation& found, const QuantityOfLaw& wanted, double wall_stress_Pa) {
-  const CombinedVector slopes = slopes_of_mean(found.fit.parameters, wanted.log);
+  const NumberOfLaw told = number_of_law(found, wanted.log);
   const double unit = wanted.quantity == PopulationQuantity::axial_tension ? std::log(wall_stress_Pa) : 0;
-  return {wanted.quantity,
-          {log_means(found.law).*wanted.log + unit, slopes.dot(found.fit.covariance * slopes)},
-          log_spreads(found.law).*wanted.log,
-          std::sqrt(slopes.dot(found.common_covariance * slopes))};
+  return {wanted.quantity, {told.mean + unit, told.variance}, told.spread, told.common_error};
 }
 
 /// Known to better than a quarter: intervals of what is not are skewed (simulated recordings).
@@ -163,15 +160,16 @@ std::string why_not_in_table(const CombinedPopulation& found, const CombinedInte
       length_scale * table.radii_um().back());
 }
 
-/// Beyond its other ends the shapes of the table go straight on.
-void tell_continued(const CombinedPopulation& found, const CellBox& box, RecordingReport& r) {
-  if (const int soft = beyond(found, box, x_progress); soft != 0)
-    r.warnings.push_back(fmt::format("the mean cell is {} than those of the table, which is continued to it.",
-                                     soft > 0 ? "softer" : "stiffer"));
-  if (const int drawn = beyond(found, box, x_axial); drawn != 0)
-    r.warnings.push_back(
-        fmt::format("the axial tension over E + E2D/r0 is {} than in the table, which is continued to it.",
-                    drawn > 0 ? "greater" : "less"));
+/// Of a stiff cell hardly anything is seen.
+void tell_stiff(const CombinedPopulation& found, const CellBox& box, RecordingReport& r) {
+  if (beyond(found, box, x_progress) < 0)
+    r.warnings.emplace_back("the mean cell is stiffer than those of the table, which is continued to it.");
+}
+
+/// Beyond the soft end the shapes of the table go straight on: the cells there are fitted with the others.
+void count_beyond(const CombinedPopulation& found, RecordingReport& r) {
+  r.beyond = events_beyond(found);
+  r.continued_events = r.beyond.on(TableSide::softer) + r.beyond.on(TableSide::longer);
 }
 
 /// Also of measures that were not fitted.
@@ -260,18 +258,20 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
         "tells how far single events are from the cells of the table.";
     return;
   }
-  for (const auto& [side, events] :
-       {std::pair(TableSide::smaller, combined.found.smaller), std::pair(TableSide::larger, combined.found.larger)})
-    r.beyond.add(side, events);
-  combined.strangers = cells.size() - r.beyond.all() - fit.events;
+  combined.strangers = cells.size() - combined.found.smaller - combined.found.larger - fit.events;
   r.fitted_events = fit.events;
+  count_beyond(combined.found, r);
   if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
   r.failure =
       why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow()).length);
   if (!r.failure.empty()) return;
+  const CellsBeyond& beyond = combined.found.beyond;
+  refuse_most_beyond(PopulationQuantity::stiffness, bound_of_median(beyond.log_stiffness_of_last, beyond.all), r);
+  if (r.is_beyond) return;
   tell(combined.found, combined, r);
   tell_bounds(fit, r);
-  tell_continued(combined.found, moduli_.table().box(), r);
+  tell_beyond(r);
+  tell_stiff(combined.found, moduli_.table().box(), r);
   if (r.quantities.empty()) {
     r.failure = "the events do not tell the parameters of the population apart; more events help.";
     return;

@@ -99,6 +99,7 @@ ConditionReport condition_report(const ConditionRecordings& of_condition, const 
   for (const RecordingReport* r : recordings) {
     report.events += r->fitted_events;
     report.beyond.add(r->beyond);
+    report.continued_events += r->continued_events;
     elongations.push_back(r->median_elongation);
     radii.push_back(r->log_radius);
     log_radius_spreads.push_back(std::log(r->radius_spread));

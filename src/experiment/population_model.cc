@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "experiment/combined_populations.h"
+#include "experiment/population_recordings.h"
 #include "experiment/solid_populations.h"
 
 namespace rheocyte {
@@ -35,6 +38,33 @@ void check_events_of_population(const RecordingReport& report) {
     refuse_path(report.recording, fmt::format("has {} events that the gates and the table of its cells leave, of {}; a "
                                               "population needs at least {}.",
                                               report.fitted_events, report.recorded, fewest_population_events));
+}
+
+void tell_beyond(RecordingReport& r) {
+  constexpr double worth_a_word = 0.25;
+  const std::size_t beyond = r.beyond.all(), events = r.seen_events();
+  if (double(beyond) > worth_a_word * double(events))
+    r.warnings.push_back(fmt::format(
+        "{} of {} events ({}) lie beyond the cells of the table, or too near its ends; the population is that of "
+        "all cells as far as {} tells it.",
+        beyond, events, r.beyond.shares(events),
+        r.continued_events > 0 ? "the table, which goes straight on to them," : "the distribution of the others"));
+}
+
+void refuse_most_beyond(PopulationQuantity quantity, const std::optional<double>& log_bound, RecordingReport& r) {
+  const std::string majority = r.beyond.majority(r.seen_events());
+  if (majority.empty()) return;
+  r.is_beyond = true;
+  const auto [key, symbol, unit] = words_of(quantity);
+  std::string bound = "the others are a tail of all cells, whose median is unknown";
+  if (log_bound && std::isfinite(*log_bound)) {
+    r.bound = {quantity, *log_bound};
+    bound = fmt::format("the median of {} is below {:.3g} {}", symbol, std::exp(*log_bound), unit);
+  }
+  r.failure = fmt::format(
+      "{} than the cells of the table {}, or too near its end: {}. Another channel, flow rate or medium brings them "
+      "into it; `rheocyte plan` says which.",
+      majority, r.table, bound);
 }
 
 void refuse_tail(const RecordingReport& report, double kept_fraction) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -30,6 +31,13 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
 
 /// UserError below the events that a population needs.
 void check_events_of_population(const RecordingReport& report);
+
+/// Where the table lacks many, the population is told by the shape of the rest: a warning.
+void tell_beyond(RecordingReport& report);
+
+/// Where most events lie on one side of the table the others are a tail, which tells nothing of the rest: no numbers.
+/// `log_bound`: below it ln of the median of the quantity is known to lie, if it is.
+void refuse_most_beyond(PopulationQuantity quantity, const std::optional<double>& log_bound, RecordingReport& report);
 
 /// UserError: gates that keep less than least_kept_fraction.
 [[noreturn]] void refuse_tail(const RecordingReport& report, double kept_fraction);

@@ -43,9 +43,10 @@ struct ConditionReport {
   std::string name;
   std::size_t recordings = 0, events = 0;       ///< with numbers; events that were fitted
   EventsBeyond beyond;                          ///< of these recordings
+  std::size_t continued_events = 0;             ///< of these: fitted nevertheless
   std::vector<std::filesystem::path> left_out;  ///< recordings that could not be fitted
   std::filesystem::path without_numbers_by;     ///< the recording beyond the table for which there are none
-  std::size_t seen_events() const { return events + beyond.all(); }
+  std::size_t seen_events() const { return events + beyond.all() - continued_events; }
   std::vector<ConditionQuantity> quantities;               ///< those that all its recordings tell
   double log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
   double elongation = no_value;                            ///< mean of the recordings' medians

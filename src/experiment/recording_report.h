@@ -35,6 +35,12 @@ struct QuantityEstimate {
   std::optional<ParameterInterval> log_interval = {};  ///< of the mean; not given: its error is normal
 };
 
+/// The median of ln of a quantity is below it.
+struct UpperBound {
+  PopulationQuantity quantity;
+  double log;
+};
+
 /// Of cells with a cortex.
 struct CombinedReport {
   CombinedPopulation found;
@@ -51,7 +57,8 @@ struct RecordingReport : RecordingFacts {
   double median_viscosity_mPas = 0, median_elongation = 0;
   std::string table;
   std::size_t without_numbers = 0, fitted_events = 0;
-  EventsBeyond beyond;  ///< the cells of the table
+  EventsBeyond beyond;               ///< the cells of the table
+  std::size_t continued_events = 0;  ///< of these: fitted nevertheless, because the table goes straight on to them
   bool is_binned = false;
   std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
   double log_radius = no_value, radius_spread = no_value;
@@ -62,7 +69,7 @@ struct RecordingReport : RecordingFacts {
   /// Of a failure: the cells are known to lie on one side of those that have a number, so that recordings without this
   /// one would be a selection.
   bool is_beyond = false;
-  std::optional<double> greatest_log_modulus;  ///< of such softer cells: the median of ln(E / kPa) is below it
+  std::optional<UpperBound> bound;  ///< of such softer cells
 
   FittedCells fitted;  ///< of solids
   SingleImages images;
@@ -70,7 +77,8 @@ struct RecordingReport : RecordingFacts {
   std::optional<CombinedReport> combined;    ///< of cells with a cortex
 
   const QuantityEstimate* estimate(PopulationQuantity quantity) const;
-  std::size_t seen_events() const { return fitted_events + beyond.all(); }  ///< inside the gates and with numbers
+  /// Inside the gates and with numbers.
+  std::size_t seen_events() const { return fitted_events + beyond.all() - continued_events; }
   /// At the wall without a cell, at the median viscosity.
   double wall_stress_Pa() const;
 };

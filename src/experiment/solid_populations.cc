@@ -42,33 +42,6 @@ void tell_bounds(RecordingReport& r) {
       r.warnings.push_back(fmt::format("{} is at its bound and has no interval.", names[k]));
 }
 
-/// Where the table lacks many, the population is told by the shape of the rest.
-void tell_beyond(RecordingReport& r) {
-  constexpr double worth_a_word = 0.25;
-  const std::size_t beyond = r.beyond.all(), events = r.seen_events();
-  if (double(beyond) > worth_a_word * double(events))
-    r.warnings.push_back(fmt::format(
-        "{} of {} events ({}) lie beyond the cells of the table, or too near its ends; the population is that of "
-        "all cells as far as the distribution of the others tells it.",
-        beyond, events, r.beyond.shares(events)));
-}
-
-/// Where most events lie on one side of the table the others are a tail, which tells nothing of the rest.
-void refuse_most_beyond(const std::vector<double>& softer_than, RecordingReport& r) {
-  const std::string majority = r.beyond.majority(r.seen_events());
-  if (majority.empty()) return;
-  r.is_beyond = true;
-  r.greatest_log_modulus = bound_of_median(softer_than, r.seen_events());
-  const std::string bound = r.greatest_log_modulus
-                                ? fmt::format("the median of E is below {:.3g} kPa", std::exp(*r.greatest_log_modulus))
-                                : std::string("the others are a tail of all cells, whose median is unknown");
-  r.failure = fmt::format(
-      "{} than the cells of the table {}, or too near its end: {}. Another channel, flow rate or medium brings them "
-      "into "
-      "it; `rheocyte plan` says which.",
-      majority, r.table, bound);
-}
-
 }  // namespace
 
 void tell_quantities(RecordingReport& r) {
@@ -99,7 +72,7 @@ void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, c
   r.beyond = made.beyond;
   r.fitted_events = std::size_t(std::lround(made.sample.events()));
   r.is_binned = made.is_binned;
-  refuse_most_beyond(made.softer_than, r);
+  refuse_most_beyond(PopulationQuantity::young_modulus, bound_of_median(made.softer_than, r.seen_events()), r);
   if (r.is_beyond) return;
   check_events_of_population(r);
   FitSettings settings;

@@ -13,6 +13,7 @@ namespace {
 
 /// Chi squared over two degrees of freedom that one recording of a hundred exceeds.
 constexpr double misfit_by_chance = 4.6;
+constexpr double normal_95 = 1.645;  ///< quantile of a normal distribution
 
 /// Its error is that of what it is computed from.
 std::string wall_text(double stress_Pa) {
@@ -21,28 +22,61 @@ std::string wall_text(double stress_Pa) {
       stress_Pa);
 }
 
-}  // namespace
+std::string why_no_law(const AxialSummary& s) {
+  const std::size_t cells = s.law.cells;
+  if (const std::string majority = s.beyond.majority(cells); !majority.empty())
+    return fmt::format("{} than the cells of the table", majority);
+  if (cells < fewest_cells_of_population)
+    return fmt::format("only {} events have an outline, and it takes {}", cells, fewest_cells_of_population);
+  return fmt::format("no population of the table's cells has the outlines of these {} events", cells);
+}
 
-std::vector<std::string> tension_lines(const AxialSummary& s) {
-  if (!s.is_of_elongated_cells) return {};
-  const auto& [value, lower, upper, misfit, cells] = s.common;
-  const double wall = s.wall_stress_Pa;
+std::string tension_line(const AxialSummary& s) {
+  const double value = s.law.axial_tension.value_Pa, wall = s.wall_stress_Pa;
   if (s.is_given)
-    return {fmt::format("axial tension: {:.4g} Pa as given{}", value,
-                        std::isfinite(wall) ? fmt::format(", {:.3g} {}", value / wall, wall_text(wall)) : "")};
-  if (!s.common.is_found())
-    return {fmt::format(
+    return fmt::format("axial tension: {:.4g} Pa as given{}", value,
+                       std::isfinite(wall) ? fmt::format(", {:.3g} {}", value / wall, wall_text(wall)) : "");
+  if (!s.law.is_found)
+    return fmt::format(
         "axial tension: not found, because {}; each cell has the one that fits it best, or give --axial-tension-Pa",
-        cells < fewest_cells_of_population
-            ? fmt::format("only {} events have an outline, and it takes {}", cells, fewest_cells_of_population)
-            : fmt::format("no population of the table's cells has the outlines of these {} events", cells))};
+        why_no_law(s));
+  const auto [lower, upper] = tension_interval_Pa(s.law.axial_tension);
   std::string text = fmt::format(
       "axial tension: {:.4g} Pa (90 % interval {:.4g} to {:.4g}) from {} cells, {:.3g} ({:.3g} to {:.3g}) {}", value,
-      lower, upper, cells, value / wall, lower / wall, upper / wall, wall_text(wall));
+      lower, upper, s.law.cells, value / wall, lower / wall, upper / wall, wall_text(wall));
   if (lower <= 0 && upper >= 0) text += "; none within its error";
-  if (misfit > misfit_by_chance)
-    text += fmt::format("; the mean shape differs from that of the model by {:.2g} times its error", std::sqrt(misfit));
-  return {text};
+  return text;
+}
+
+std::string stiffness_line(const AxialSummary& s) {
+  const LawOfCells& law = s.law;
+  const auto [lower, upper] = median_interval(law.stiffness);
+  std::string text =
+      fmt::format("E + E2D/r0: {:.4g} kPa (90 % interval {:.4g} to {:.4g}), the median of the population of {} cells",
+                  std::exp(law.stiffness.mean), lower, upper, law.cells);
+  if (const std::string shares = s.beyond.shares(law.cells); !shares.empty())
+    text += fmt::format(", beyond the table {}", shares);
+  if (law.misfit > misfit_by_chance)
+    text +=
+        fmt::format("; the mean shape differs from that of the model by {:.2g} times its error", std::sqrt(law.misfit));
+  return text;
+}
+
+}  // namespace
+
+std::pair<double, double> tension_interval_Pa(const AxialTension& tension) {
+  return {tension.value_Pa - normal_95 * tension.error_Pa, tension.value_Pa + normal_95 * tension.error_Pa};
+}
+
+std::pair<double, double> median_interval(const NumberOfLaw& number) {
+  return {std::exp(number.mean - normal_95 * number.error()), std::exp(number.mean + normal_95 * number.error())};
+}
+
+std::vector<std::string> law_lines(const AxialSummary& s) {
+  if (!s.is_of_elongated_cells) return {};
+  std::vector<std::string> lines{tension_line(s)};
+  if (s.law.is_found) lines.push_back(stiffness_line(s));
+  return lines;
 }
 
 std::vector<std::string> slope_lines(const AxialSummary& s) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case/user_error.h"
@@ -68,6 +69,21 @@ double ModuliTable::sign_of_asymmetry() const {
   return between.at((box.least + box.greatest) / 2).value(first_mode_row + 1);
 }
 
+EventsBeyond events_beyond(const CombinedPopulation& population) {
+  using enum TableSide;
+  const CellsBeyond& of_law = population.beyond;
+  const auto events_of = [&](std::size_t cells) {
+    const double share = double(cells) / double(std::max<std::size_t>(of_law.all, 1));
+    return std::size_t(std::lround(share * double(population.fit.events)));
+  };
+  EventsBeyond beyond;
+  beyond.add(softer, events_of(of_law.softer));
+  beyond.add(longer, events_of(of_law.longer));
+  beyond.add(smaller, population.smaller);
+  beyond.add(larger, population.larger);
+  return beyond;
+}
+
 EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& options, const ModuliTable& table,
                          Section seen_in)
     : flow_(settings.conditions.flow),
@@ -94,36 +110,25 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
   return SeenCell{seen->shape, measured.flow, measured.cells};
 }
 
-CommonTension EventModuli::common_tension(std::span<const MeasuredCell> cells, const ValueGate& log_area,
-                                          const std::function<void()>& goes_on) const {
-  if (cells.empty()) return {};
+void EventModuli::tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area,
+                           const std::function<void()>& goes_on, AxialSummary& summary) const {
+  summary.law = {.cells = cells.size(), .axial_tension = tension_};
+  if (cells.empty() || moduli_.features() == features_of_figure()) return;
   const ChannelFlow flow = median_of(cells).flow;
-  const SeenPopulation seen{
+  SeenPopulation seen{
       .sight = sight(flow), .pixel_size_um = pixel_size_um_, .log_area = log_area, .outline_noise = outline_noise_};
-  return rheocyte::common_tension(fit_combined_population(moduli_, seen, cells, goes_on), cells.size(),
-                                  wall_shear_stress_Pa(flow));
+  if (tension_.error_Pa == 0) seen.axial_tension_Pa = tension_.value_Pa;
+  const CombinedPopulation found = fit_combined_population(moduli_, seen, cells, goes_on);
+  summary.beyond = events_beyond(found);
+  if (found.fit.is_found && summary.beyond.majority(cells.size()).empty())
+    summary.law = law_of_cells(found, wall_shear_stress_Pa(flow));
 }
 
 CommonErrors EventModuli::common_errors(std::span<const MeasuredCell> cells) const {
   if (cells.size() < MedianCell::min_cells) return {};
   const auto seen = seen_cell(median_of(cells), double(cells.size()));
   if (!seen) return {};
-  const bool is_uncertain = tension_.error_Pa > 0 && std::isfinite(tension_.error_Pa);
-  if (!is_uncertain) return relative_errors(moduli_.fit(seen->shape, seen->flow, tension_));
-  // Many pictures would tell the tension better than it is known: what puts it off is in all of them.
-  const auto at = [&](double errors) {
-    return moduli_.fit(seen->shape, seen->flow, {tension_.value_Pa + errors * tension_.error_Pa, 0});
-  };
-  const ModuliEstimate less = at(-1), e = at(0), more = at(1);
-  const auto with_tension = [](double relative, double value, double low, double high) {
-    return std::hypot(relative, (high - low) / (2 * value));
-  };
-  const auto of = [&](double relative, Modulus m) {
-    return with_tension(relative, e.value(m), less.value(m), more.value(m));
-  };
-  const auto [young, cortex, stiffness] = relative_errors(e);
-  return {of(young, Modulus::young), of(cortex, Modulus::cortex),
-          with_tension(stiffness, e.stiffness_kPa, less.stiffness_kPa, more.stiffness_kPa)};
+  return relative_errors(moduli_.fit(seen->shape, seen->flow, tension_));
 }
 
 MedianCell EventModuli::median_cell(std::span<const MeasuredCell> cells) const {

@@ -1,9 +1,10 @@
 // Moduli of bulk and cortex of single events of one recording, by a combined table.
 #pragma once
+#include "events/events_beyond.h"
 #include "events/extract_settings.h"
 #include "extract/moduli_summary.h"
 #include "infer/bulk_cortex_fit.h"
-#include "infer/common_tension.h"
+#include "infer/combined_population.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "shelf/square_section.h"
@@ -31,6 +32,10 @@ struct ModuliTable {
   ChannelFlow simulated;
 };
 
+/// Events of a fitted population beyond the cells of its table: by its sizes those that are left out, by the other
+/// sides the shares of the law.
+EventsBeyond events_beyond(const CombinedPopulation& population);
+
 /// What the outlines are for, in OutlinedEvents.
 inline constexpr std::string_view use_of_outlines = "the shape of each cell is fitted";
 
@@ -46,13 +51,15 @@ class EventModuli {
   ShapeErrors errors_in_picture(const CellCoordinates& cell) const { return pixels_.at(cell); }
   void know_tension(const AxialTension& tension) { tension_ = tension; }
 
-  /// Of the cells in pixels whose measured ln of the area such a gate passes. `goes_on` is called from step to step.
-  CommonTension common_tension(std::span<const MeasuredCell> cells, const ValueGate& log_area,
-                               const std::function<void()>& goes_on) const;
+  /// The law of the cells in pixels whose measured ln of the area such a gate passes, with what is known of the
+  /// tension: none by so few features that they do not tell it, nor where most cells lie on one side of the table.
+  /// `goes_on` is called from step to step.
+  void tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area, const std::function<void()>& goes_on,
+                AxialSummary& summary) const;
   /// With what is known of the tension.
   MedianCell median_cell(std::span<const MeasuredCell> cells) const;
   /// What all cells of a recording have in common, in parts of each: of the median cell's moduli what is left of their
-  /// errors without the noise of single pictures, those of the tension and of the section. NaN without such a cell.
+  /// errors without the noise of single pictures. NaN without such a cell.
   CommonErrors common_errors(std::span<const MeasuredCell> cells) const;
   /// What `fit` would be asked with.
   MeasuredCell measured(const ShapeVector& seen, double viscosity_mPas) const {

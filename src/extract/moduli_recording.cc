@@ -48,7 +48,6 @@ class Fits {
     events_.turn_downstream(table.sign_of_asymmetry());
     axial_.is_of_elongated_cells = table.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
-    if (axial_.is_given) axial_.common.value_Pa = *options.axial_tension_Pa;
     settings_hash_ = hash_of_settings(options);
   }
 
@@ -58,8 +57,8 @@ class Fits {
     const std::vector<MeasuredCell> cells = cells_for_survey(recording, options);
     check_outlines(recording, cells);
     median_ = moduli_.median_cell(cells);
-    survey_tension(cells);
-    common_errors_ = moduli_.common_errors(cells);
+    survey_law(cells);
+    if (!axial_.law.is_found) common_errors_ = moduli_.common_errors(cells);
   }
 
   void check_outlines(const Recording& recording, std::span<const MeasuredCell> cells) const {
@@ -70,15 +69,14 @@ class Fits {
                         {median_of(cells).shape, modes_7});
   }
 
-  void survey_tension(const std::vector<MeasuredCell>& cells) {
+  void survey_law(const std::vector<MeasuredCell>& cells) {
     if (!axial_.is_of_elongated_cells) return;
     std::vector<double> wall_stresses;
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
     axial_.wall_stress_Pa = median_of(wall_stresses);
-    if (axial_.is_given) return;
     const auto area_um2 = events_.gates().limits_of("area_um");
-    axial_.common = moduli_.common_tension(cells, log_area_gate(area_um2.min, area_um2.max), goes_on_);
-    moduli_.know_tension(axial_.common.tension());
+    moduli_.tell_law(cells, log_area_gate(area_um2.min, area_um2.max), goes_on_, axial_);
+    moduli_.know_tension(axial_.law.axial_tension);
   }
 
   /// What holds for all events.
@@ -91,7 +89,7 @@ class Fits {
         section_text(),
         fmt::format("errors of the outline beside those of the pixels: {:g} um", outline_noise_um_),
         fmt::format("direction of the cells: {}", direction_text(events_.facts().direction))};
-    for (const auto& line : tension_lines(axial_)) lines.push_back(line);
+    for (const auto& line : law_lines(axial_)) lines.push_back(line);
     const RecordingFacts& facts = events_.facts();
     lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
     if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
@@ -134,7 +132,7 @@ class Fits {
   }
 
   ModuliSummary summary() {
-    ModuliSummary s = tally_.summary(common_errors_);
+    ModuliSummary s = tally_.summary(common_errors_, axial_.law);
     s.axial = axial_;
     s.median_cell = median_;
     s.outline_noise_um = outline_noise_um_;
@@ -174,7 +172,7 @@ class Fits {
     lines.push_back(fmt::format("table: {} {}", spec.identifier, spec_hash(spec)));
     lines.push_back(way_text(options));
     lines.push_back(fmt::format("section {}, outline noise {} um", int(section_), outline_noise_um_));
-    if (axial_.is_given) lines.push_back(fmt::format("axial tension {} Pa", axial_.common.value_Pa));
+    if (options.axial_tension_Pa) lines.push_back(fmt::format("axial tension {} Pa", *options.axial_tension_Pa));
     return settings_hash(lines);
   }
 

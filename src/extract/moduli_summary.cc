@@ -15,6 +15,15 @@ std::string range_text(const Distribution& d, std::string_view name, std::string
                      d.third_quartile);
 }
 
+Distribution distribution_of(const NumberOfLaw& number) {
+  constexpr double normal_75 = 0.6745;  // quantile of a normal distribution
+  const double half_width = normal_75 * number.spread, median = std::exp(number.mean);
+  Distribution d;
+  d.median = median, d.median_error = median * number.error();
+  d.first_quartile = median * std::exp(-half_width), d.third_quartile = median * std::exp(half_width);
+  return d;
+}
+
 }  // namespace
 
 std::size_t ModuliSummary::events() const { return std::accumulate(counts.begin(), counts.end(), std::size_t{0}); }
@@ -29,7 +38,9 @@ void ModuliTally::take(const ModuliEstimate& e) {
     stiffness_.push_back(e.stiffness_kPa);
 }
 
-ModuliSummary ModuliTally::summary(const CommonErrors& common) {
+ModuliSummary ModuliTally::summary(const CommonErrors& of_single_cells, const LawOfCells& law) {
+  const CommonErrors common =
+      law.is_found ? CommonErrors{law.young.error(), law.cortex.error(), no_value} : of_single_cells;
   const auto with_common = [](const std::vector<double>& values, double relative) {
     Distribution d = distribution_of(values);
     if (std::isfinite(relative)) d.median_error = std::hypot(d.median_error, relative * d.median);
@@ -37,7 +48,7 @@ ModuliSummary ModuliTally::summary(const CommonErrors& common) {
   };
   summary_.young_kPa = with_common(young_, common.young);
   summary_.cortex_mN_per_m = with_common(cortex_, common.cortex);
-  summary_.stiffness_kPa = with_common(stiffness_, common.stiffness);
+  summary_.stiffness_kPa = law.is_found ? distribution_of(law.stiffness) : with_common(stiffness_, common.stiffness);
   return summary_;
 }
 
@@ -47,16 +58,16 @@ std::string missing_text(const ModuliSummary& s) {
                     fitted = s.with_stiffness() + missing;
   if (s.with_stiffness() == 0 || missing <= s.with_stiffness()) return {};
   return fmt::format(
-      "only {} of {} fitted events have a stiffness: the medians are those of cells that happen to be in the table, "
-      "not "
-      "of all; report none of them.",
-      s.with_stiffness(), fitted);
+      "only {} of {} fitted events have a stiffness: medians of single cells are those of cells that happen to be in "
+      "the "
+      "table, not of all; report {}.",
+      s.with_stiffness(), fitted, s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
 }
 
 std::string in_one_line(const ModuliSummary& s) {
   std::string text = fmt::format("{} of {} events {}", s.resolved(), s.events(), name_of(ModuliStatus::resolved));
   if (s.resolved() > 0) text += range_text(s.young_kPa, "E", "kPa") + range_text(s.cortex_mN_per_m, "E2D", "mN/m");
-  if (s.with_stiffness() > 0) text += range_text(s.stiffness_kPa, "E + E2D/r0", "kPa");
+  if (s.has_stiffness()) text += range_text(s.stiffness_kPa, "E + E2D/r0", "kPa");
   std::string others;
   for (int k = 0; k < moduli_status_count; ++k)
     if (const auto status = ModuliStatus(k); status != ModuliStatus::resolved && s.counts[std::size_t(k)] > 0)
@@ -90,7 +101,7 @@ std::string median_line(const ModuliSummary& s) {
 }  // namespace
 
 std::vector<std::string> lines_of(const ModuliSummary& s) {
-  std::vector<std::string> lines = tension_lines(s.axial);
+  std::vector<std::string> lines = law_lines(s.axial);
   for (const std::string& line : slope_lines(s.axial)) lines.push_back(line);
   if (std::string median = median_line(s); !median.empty()) lines.push_back(std::move(median));
   return lines;

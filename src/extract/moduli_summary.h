@@ -19,14 +19,15 @@ struct CommonErrors {
   double young = no_value, cortex = no_value, stiffness = no_value;
 };
 
-/// Errors of medians are those of the scatter between events and of what all have in common.
+/// Errors of medians are those of the scatter between events and of what all have in common; those of a law are its
+/// own.
 struct ModuliSummary : RecordingFacts {
   std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
-  Distribution stiffness_kPa;                             ///< E + E2D / r0, of all events that have it
-  double outline_noise_um = 0;                            ///< as it was given
-  std::string settings_hash;                              ///< events/settings_hash.h
-  std::vector<std::string> warnings;                      ///< with the remarks on the recording
+  Distribution stiffness_kPa;         ///< E + E2D / r0 by the law of the cells; without one, of all events that have it
+  double outline_noise_um = 0;        ///< as it was given
+  std::string settings_hash;          ///< events/settings_hash.h
+  std::vector<std::string> warnings;  ///< with the remarks on the recording
   AxialSummary axial;
   MedianCell median_cell;
 
@@ -42,14 +43,15 @@ struct ModuliSummary : RecordingFacts {
   std::size_t resolved() const { return counts[std::size_t(ModuliStatus::resolved)]; }
   /// Events with a stiffness: those whose shape a cell of the table has.
   std::size_t with_stiffness() const { return resolved() + counts[std::size_t(ModuliStatus::not_told_apart)]; }
+  bool has_stiffness() const { return axial.law.is_found || with_stiffness() > 0; }
 };
 
 /// Takes event by event.
 class ModuliTally {
  public:
   void take(const ModuliEstimate& estimate);
-  /// Counts and distributions; nothing of gates and warnings.
-  ModuliSummary summary(const CommonErrors& common);
+  /// Counts and distributions; nothing of gates and warnings. The common errors count where there is no law.
+  ModuliSummary summary(const CommonErrors& of_single_cells, const LawOfCells& law);
 
  private:
   ModuliSummary summary_;

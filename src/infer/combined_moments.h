@@ -13,6 +13,14 @@
 
 namespace rheocyte {
 
+/// Cells of a law that its table does not have.
+struct CellsBeyond {
+  std::size_t all = 0, within = 0, softer = 0;
+  std::size_t longer = 0;  ///< their axial tension is a greater part of their stiffness
+  /// If these two are more than half: of each ln(S / kPa) of the softest cell of the table with its other numbers.
+  std::vector<double> log_stiffness_of_last = {};
+};
+
 /// Mean and covariance of the features that are seen of cells of a law: in pixels, in the recording's channel.
 class CombinedMoments : public MomentModel {
  public:
@@ -46,6 +54,9 @@ class CombinedMoments : public MomentModel {
   CellCoordinates mean_cell(const CombinedVector& parameters) const;
   /// What the table, and in the square channel the law that brings it there, leaves and all events have in common.
   Eigen::MatrixXd common_covariance(const CombinedVector& parameters) const;
+
+  /// Of about so many virtual cells of this law, whether or not they pass.
+  CellsBeyond beyond(const CombinedVector& parameters, std::size_t cells) const;
 
   /// All features of about so many virtual events of this law.
   std::vector<ShapeVector> drawn(const CombinedVector& parameters, std::size_t events) const;
@@ -85,6 +96,11 @@ class CombinedMoments : public MomentModel {
   /// In the channel, without pixels.
   Shape shape(const CombinedLaw& law, const Numbers& place, const Progress& progress) const;
   CellCoordinates place_in_table(const Numbers& numbers, double log_progress) const;
+  enum class Side { within, softer, longer };
+  /// On which side of the table a cell lies; `first` as below.
+  Side side(const Numbers& numbers, double first) const;
+  /// ln(S / kPa) of the softest cell of the table with these numbers, the stiffness aside; infinite far beyond it.
+  double softest(Numbers numbers, double first) const;
   /// `first`: where the search for the deformation begins (ln of the progress).
   Shape shape_in_tube(const Numbers& numbers, double first) const;
   Progress progress(const CombinedLaw& law) const;

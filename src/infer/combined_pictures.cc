@@ -1,6 +1,8 @@
 // Virtual cells of a law, and pictures of them.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "infer/combined_moments.h"
 #include "measurement/shape_in_pixels.h"
@@ -81,6 +83,44 @@ std::vector<ShapeVector> CombinedMoments::drawn_smooth(const CombinedVector& par
   std::vector<ShapeVector> all;
   for (std::size_t i = 0; i < events; ++i) all.push_back(shape(law, drawn_place(seed, i), of_mean).value);
   return all;
+}
+
+/// Sizes, fractions and tensions of the cortex beyond the table's are the nearest ones of it.
+CombinedMoments::Side CombinedMoments::side(const Numbers& numbers, double first) const {
+  const CellBox& box = moduli_.table().box();
+  CellCoordinates cell = place_in_table(numbers, shape_in_tube(numbers, first).progress);
+  for (const int x : {x_radius, x_fraction, x_ratio}) cell(x) = std::clamp(cell(x), box.least(x), box.greatest(x));
+  if (cell(x_axial) > box.greatest(x_axial)) return Side::longer;
+  return cell(x_progress) <= box.least(x_progress) || moduli_.table().is_inside(cell) ? Side::within : Side::softer;
+}
+
+CellsBeyond CombinedMoments::beyond(const CombinedVector& parameters, std::size_t cells) const {
+  const CombinedLaw law = CombinedLaw::of(parameters);
+  const Progress of_mean = progress(law);
+  std::vector<Numbers> beyond;
+  CellsBeyond found{.all = cells};
+  for (std::size_t i = 0; i < cells; ++i) {
+    const Numbers cell = numbers(law, drawn_place(0, i));
+    const Side of_cell = side(cell, of_mean.at(cell));
+    if (of_cell != Side::within) beyond.push_back(cell);
+    ++(of_cell == Side::softer ? found.softer : of_cell == Side::longer ? found.longer : found.within);
+  }
+  if (2 * beyond.size() > cells)
+    for (const Numbers& cell : beyond) found.log_stiffness_of_last.push_back(softest(cell, of_mean.at(cell)));
+  return found;
+}
+
+double CombinedMoments::softest(Numbers numbers, double first) const {
+  constexpr int halvings = 8;
+  constexpr double reach = 2;
+  double beyond = numbers(1), within = beyond + reach;
+  numbers(1) = within;
+  if (side(numbers, first) != Side::within) return HUGE_VAL;
+  for (int k = 0; k < halvings; ++k) {
+    numbers(1) = std::midpoint(beyond, within);
+    (side(numbers, first) == Side::within ? within : beyond) = numbers(1);
+  }
+  return within;
 }
 
 CombinedMoments::Numbers CombinedMoments::drawn_place(std::uint64_t seed, std::uint64_t number) {

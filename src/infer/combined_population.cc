@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t pictures_of_event = 10, fewest_pictures = 10'000, most_pictures = 40'000;
-constexpr std::size_t virtual_events = 5'000;
+constexpr std::size_t virtual_events = 5'000, virtual_cells = 1'000;
 constexpr int turns_of_beginning = 3, turns_of_round = 20, rounds_of_pictures = 3, pictures_of_median = 2'000;
 
 /// As if the measured outline were smooth: for a beginning.
@@ -25,8 +25,10 @@ ShapeErrors pixels_of(const ShapeVector& measured, const SeenPopulation& seen) {
   return errors_in_pixels(outline_of(measured), seen.pixel_size_um, pictures_of_median, random, seen.outline_noise);
 }
 
-/// Means within the table, but for the radius and the stiffness; spreads above what nobody sees.
-MomentSettings moment_settings(const CombinedInterpolation& table, const std::function<void()>& goes_on) {
+/// Means within the table, but for the radius and the stiffness; spreads above what nobody sees. `axial`: the tension
+/// over the wall's shear stress, if it is known.
+MomentSettings moment_settings(const CombinedInterpolation& table, const std::optional<double>& axial,
+                               const std::function<void()>& goes_on) {
   using enum CombinedParameter;
   const CellBox& box = table.box();
   MomentSettings settings;
@@ -37,7 +39,7 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::fu
   };
   within(cortex_fraction, box.least(x_fraction), box.greatest(x_fraction));
   within(tension_ratio, box.least(x_ratio), box.greatest(x_ratio));
-  within(axial_tension, 0, HUGE_VAL);
+  within(axial_tension, axial.value_or(0), axial.value_or(HUGE_VAL));
   within(log_radius_spread, std::log(0.003), 0);
   within(log_stiffness_spread, std::log(0.01), std::log(0.5));
   within(log_fraction_spread, std::log(0.01), std::log(0.12));
@@ -56,6 +58,11 @@ CombinedVector start_from(const ModuliEstimate& median, const ScaleFactors& scal
   law.axial_spread = 0.1, law.ratio_spread = 0.1;
   law.root.diagonal() << 0.07, 0.2, 0.1;
   return law.parameters();
+}
+
+std::optional<double> axial_tension_of(const SeenPopulation& seen, const ChannelFlow& flow) {
+  if (!seen.axial_tension_Pa) return {};
+  return *seen.axial_tension_Pa / wall_shear_stress_Pa(flow);
 }
 
 /// What no cell of the table has: by how much the means are off beyond two standard errors of their own.
@@ -87,7 +94,7 @@ class CombinedSearch {
         median_(median_of(cells)),
         model_(moduli, {median_.flow, seen.sight.section, seen.sight.error_factor}, seen.pixel_size_um,
                seen.outline_noise),
-        settings_(moment_settings(moduli.table(), goes_on)) {
+        settings_(moment_settings(moduli.table(), axial_tension_of(seen, median_.flow), goes_on)) {
     inside_.resize(cells.size());
     std::iota(inside_.begin(), inside_.end(), 0);
     std::ranges::sort(inside_,
@@ -174,6 +181,7 @@ class CombinedSearch {
     common.diagonal() += missed(found_.fit, found_.residual).cwiseAbs2();
     found_.common_covariance = found_.fit.by_shift * common * found_.fit.by_shift.transpose();
     found_.drawn = model_.drawn(q_, virtual_events);
+    found_.beyond = model_.beyond(q_, virtual_cells);
   }
 
   const BulkCortexFit& moduli_;
@@ -191,6 +199,25 @@ class CombinedSearch {
 
 ValueGate log_area_gate(double least_um2, double greatest_um2) {
   return {std::log(std::max(least_um2, 0.0)), std::log(greatest_um2)};
+}
+
+NumberOfLaw number_of_law(const CombinedPopulation& population, double CombinedLogs::*log) {
+  const CombinedVector slopes = slopes_of_mean(population.fit.parameters, log);
+  return {log_means(population.law).*log, slopes.dot(population.fit.covariance * slopes),
+          log_spreads(population.law).*log, std::sqrt(slopes.dot(population.common_covariance * slopes))};
+}
+
+LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress_Pa) {
+  const MomentFit& fit = population.fit;
+  constexpr int axial = int(CombinedParameter::axial_tension), means = int(CombinedParameter::log_radius_spread);
+  const double variance = fit.covariance(axial, axial) + population.common_covariance(axial, axial);
+  return {.is_found = true,
+          .cells = fit.events,
+          .misfit = fit.misfit / std::max(int(population.features.size()) - means, 1),
+          .axial_tension = {population.law.axial_tension * wall_stress_Pa, std::sqrt(variance) * wall_stress_Pa},
+          .stiffness = number_of_law(population, &CombinedLogs::stiffness),
+          .young = number_of_law(population, &CombinedLogs::young),
+          .cortex = number_of_law(population, &CombinedLogs::cortex)};
 }
 
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,

@@ -3,7 +3,9 @@
 #pragma once
 #include <array>
 
-#include "infer/common_tension.h"
+#include "infer/bulk_cortex_fit.h"
+#include "infer/seen_cells.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 

@@ -1,5 +1,5 @@
 // How the modes of the cells of a recording go together, and what the model says of it: a test of the model, because no
-// fit of single cells uses it (docs/theory-extract.md, sec. "One tension for a recording").
+// fit of single cells uses it (docs/theory-extract.md, sec. "One tension and one stiffness for a recording").
 #pragma once
 #include <array>
 #include <vector>

@@ -33,6 +33,7 @@ class EventOutlines {
   /// The size of the pictures; 0 x 0 if unknown.
   const ImageSize& picture() const { return picture_; }
   std::size_t events() const { return recording_.events(); }
+  double pixel_um() const { return pixel_um_; }
 
  private:
   /// Of some events in a row as the file holds them.

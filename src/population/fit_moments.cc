@@ -205,13 +205,17 @@ class MomentSearch {
     MatrixXd matrix;  ///< minus its slopes by the parameters
   };
 
-  /// Means that are held at a bound are told as little as the others: the bound is the model's, not the cells'.
+  /// Means that are held at a bound are told as little as the others: the bound is the model's, not the cells'. Equal
+  /// bounds are what is known of them.
   Equations equations(Held held = Held::without) {
     settings_.goes_on();
     Equations e;
     e.slopes = model_.slopes(found_.parameters);
     e.means = free_of(Part::means, e.slopes);
-    if (held == Held::with_means) e.means = parameters_of(Part::means);
+    if (held == Held::with_means) {
+      e.means = parameters_of(Part::means);
+      std::erase_if(e.means, [&](int a) { return settings_.least(a) == settings_.greatest(a); });
+    }
     e.scatter = free_of(Part::scatter, e.slopes);
     e.free = e.means;
     e.free.insert(e.free.end(), e.scatter.begin(), e.scatter.end());

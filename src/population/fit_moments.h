@@ -31,7 +31,7 @@ class MomentModel {
 struct MomentSettings {
   /// How well the model has the means of all events together: errors that more events do not make smaller.
   Eigen::MatrixXd common_covariance;
-  Eigen::VectorXd least, greatest;        ///< within which the parameters are searched
+  Eigen::VectorXd least, greatest;        ///< within which the parameters are searched; equal: known
   int most_turns = 20;                    ///< between the two parts
   std::function<void()> goes_on = [] {};  ///< called from step to step
 };

@@ -21,21 +21,26 @@ Columns<ModuliSummary> moduli_summary_columns() {
   add_quartiles(
       list, {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
       [](const S& s) { return s.cortex_mN_per_m; });
-  add_quartiles(list, {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0", "the stiffness of all events that have one"},
+  add_quartiles(list,
+                {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0",
+                 "the stiffness of the population; without one, of all events that have one"},
                 [](const S& s) { return s.stiffness_kPa; });
-  const auto of_tension = [](auto number) {
-    return [number](const S& s) { return std::invoke(number, s.axial.common); };
-  };
-  list.add_with_interval({"axial_tension_Pa", "Pa", "Axial tension of the liquid",
-                          "along the flow, that all cells have in common, with the 90 % interval"},
-                         of_tension(&CommonTension::value_Pa), of_tension(&CommonTension::lower_Pa),
-                         of_tension(&CommonTension::upper_Pa))
+  list.add({"stiffness_median_kPa_low", "kPa", "", "lower end of its 90 % interval, by the population"},
+           [](const S& s) { return median_interval(s.axial.law.stiffness).first; })
+      .add({"stiffness_median_kPa_high", "kPa", "", "upper end of it"},
+           [](const S& s) { return median_interval(s.axial.law.stiffness).second; });
+  list.add_with_interval(
+          {"axial_tension_Pa", "Pa", "Axial tension of the liquid",
+           "along the flow, that all cells have in common, with the 90 % interval"},
+          [](const S& s) { return s.axial.has_tension() ? s.axial.law.axial_tension.value_Pa : no_value; },
+          [](const S& s) { return tension_interval_Pa(s.axial.law.axial_tension).first; },
+          [](const S& s) { return tension_interval_Pa(s.axial.law.axial_tension).second; })
       .add({"axial_tension_is_given", "", "Axial tension given", "by the user"},
            [](const S& s) { return s.axial.is_given; })
-      .add_count("axial_tension_cells", of_tension(&CommonTension::cells))
+      .add_count("axial_tension_cells", [](const S& s) { return s.axial.law.cells; })
       .add({"axial_tension_chi_squared_per_freedom", "", "Chi squared per degree of freedom",
             "of the mean features of the cells"},
-           of_tension(&CommonTension::misfit))
+           [](const S& s) { return s.axial.law.misfit; })
       .add({"wall_shear_stress_Pa", "Pa", "Shear stress of the wall", "median over the cells"},
            [](const S& s) { return s.axial.wall_stress_Pa; });
   return std::move(list).columns();

@@ -103,8 +103,11 @@ double kept_fraction(const RecordingReport& r) {
   return r.combined ? r.combined->found.kept_fraction : r.fitted.kept_fraction;
 }
 
-double modulus_limit(const std::optional<double>& log_modulus) {
-  return log_modulus ? std::exp(*log_modulus) : no_value;
+/// Below which the median of a quantity is known to lie.
+auto upper_limit(PopulationQuantity quantity) {
+  return [quantity](const RecordingReport& r) {
+    return r.bound && r.bound->quantity == quantity ? std::exp(r.bound->log) : no_value;
+  };
 }
 
 /// Whether there are numbers, and all checks hold.
@@ -114,9 +117,11 @@ void add_outcome(ColumnList<RecordingReport>& list) {
   using R = RecordingReport;
   list.add({.name = "kept_fraction", .sentence = "of the cells, by the gates"}, &kept_fraction);
   list.add({.name = "young_modulus_below_kPa", .unit = "kPa", .sentence = "the median is below it"},
-           [](const R& r) { return modulus_limit(r.greatest_log_modulus); });
+           upper_limit(PopulationQuantity::young_modulus));
+  list.add({.name = "stiffness_below_kPa", .unit = "kPa", .sentence = "the median of E + E2D/r0 is below it"},
+           upper_limit(PopulationQuantity::stiffness));
   list.add({.name = "young_modulus_above_kPa", .unit = "kPa", .sentence = "the median is above it"},
-           [](const R& r) { return modulus_limit(r.fitted.least_log_modulus); });
+           [](const R& r) { return r.fitted.least_log_modulus ? std::exp(*r.fitted.least_log_modulus) : no_value; });
   list.add({.name = "fits", .sentence = "whether there are numbers and all checks hold", .is_flag = true}, &fits);
   list.add({.name = "failure", .sentence = "why there is no number"}, &R::failure);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <system_error>
 
@@ -16,18 +18,14 @@ namespace fs = std::filesystem;
 namespace {
 
 template <class IsOurs>
-void check_place(const fs::path& path, Foreign foreign, const IsOurs& is_ours) {
+void check_place(const fs::path& path, const IsOurs& is_ours, std::string_view way_out) {
   std::error_code error;
   const auto status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return;
   if (error) refuse_path(path, fmt::format("cannot write there ({}).", error.message()));
   if (fs::is_directory(status)) refuse_path(path, "is a folder; give the name of a file with -o.");
   if (!fs::is_regular_file(status)) refuse_path(path, "is not a regular file; give another name with -o.");
-  if (foreign == Foreign::replace || is_ours()) return;
-  refuse_path(path,
-              foreign == Foreign::keep
-                  ? "is there and was not written by rheocyte; move it away, or name another folder with -o."
-                  : "is there and was not written by rheocyte; give another name with -o, or --force to replace it.");
+  if (!is_ours()) refuse_path(path, fmt::format("is there and was not written by rheocyte; {}.", way_out));
 }
 
 }  // namespace
@@ -38,18 +36,23 @@ bool is_own_file(const fs::path& path, std::string_view mark) {
 }
 
 bool is_own_picture(const fs::path& path) {
-  constexpr std::size_t head = 2000;  // behind which a PNG has its pixels, an SVG its drawing
-  constexpr std::string_view of_png("Software\0rheocyte", 17), of_svg = "<dc:title>rheocyte</dc:title>";
+  constexpr std::size_t head = 2000;  // behind which a PNG has its pixels, an SVG its drawing, a GIF its frames
+  constexpr std::array<std::string_view, 3> marks{std::string_view("Software\0rheocyte", 17),
+                                                  "<dc:title>rheocyte</dc:title>", "!\xFE\x08rheocyte"};
   const std::string start = first_bytes(path, head).value_or("");
-  return start.find(of_png) != std::string::npos || start.find(of_svg) != std::string::npos;
+  return std::ranges::any_of(marks, [&](std::string_view mark) { return start.find(mark) != std::string::npos; });
 }
 
 void check_replaceable(const fs::path& path, std::string_view mark, Foreign foreign) {
-  check_place(path, foreign, [&] { return is_own_file(path, mark); });
+  check_place(
+      path, [&] { return foreign == Foreign::replace || is_own_file(path, mark); },
+      foreign == Foreign::keep ? "move it away, or name another folder with -o"
+                               : "give another name with -o, or --force to replace it");
 }
 
-void check_replaceable_picture(const fs::path& path) {
-  check_place(path, Foreign::keep, [&] { return is_own_picture(path); });
+void check_replaceable_picture(const fs::path& path, std::string_view way_out) {
+  check_place(
+      path, [&] { return is_own_picture(path); }, way_out);
 }
 
 void replace_own_file(const fs::path& wanted, std::string_view content, std::string_view mark, Foreign foreign) {

@@ -24,8 +24,8 @@ bool is_own_picture(const std::filesystem::path&);
 /// not begin with `mark`, or as `foreign` says.
 void check_replaceable(const std::filesystem::path&, std::string_view mark, Foreign foreign);
 
-/// The same of a picture.
-void check_replaceable_picture(const std::filesystem::path&);
+/// The same of a picture: what a user may do instead follows in words.
+void check_replaceable_picture(const std::filesystem::path&, std::string_view way_out);
 
 /// Writes `content` beside the wanted place and renames it; makes the parent folders. An existing file is replaced if
 /// it begins with `mark`, the words with which all files of this kind from rheocyte begin, or as `foreign` says.

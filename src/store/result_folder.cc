@@ -12,6 +12,7 @@
 #include "case/refuse_path.h"
 #include "case/to_path.h"
 #include "store/atomic_file.h"
+#include "store/own_file.h"
 #include "store/read_file.h"
 #include "store/renames.h"
 #include "store/system_files.h"
@@ -48,6 +49,7 @@ constexpr std::array<std::string_view, 25> own_files{"result.json",
                                                      "contour_diagonal.csv",
                                                      "contour_across.csv",
                                                      "contour_offset.csv"};
+constexpr std::array<const char*, 5> pictures{"picture.png", "picture.svg", "time.png", "time.svg", "time.gif"};
 constexpr std::array<const char*, 2> checkpoints{"checkpoint-1.bin", "checkpoint-2.bin"};
 
 std::string reason_of(int error_number) { return std::generic_category().message(error_number); }
@@ -77,6 +79,8 @@ void check_replaceable(const fs::path& folder) {
   if (error) refuse_path(folder, fmt::format("cannot read the folder ({}).", error.message()));
   if (!empty && !holds_a_result(folder))
     refuse_path(folder, "holds files but no result of rheocyte; give a new or empty folder with -o.");
+  for (const char* const picture : pictures)
+    check_replaceable_picture(folder / to_path(picture), "move it away, or give another folder with -o");
   if (is_inside(fs::current_path(error), folder))
     refuse_path(folder, "is the current folder or contains it; give another folder with -o.");
   const auto here = facts_of(folder, Links::follow), above = facts_of(folder / "..", Links::follow);

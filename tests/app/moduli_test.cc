@@ -260,6 +260,10 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   EXPECT_NEAR(summary.at("axial_tension_Pa").get<double>(), 1000, 100);
   EXPECT_LT(summary.at("axial_tension_Pa_low"), summary.at("axial_tension_Pa_high"));
   EXPECT_EQ(summary.at("slopes_between_cells").size(), 3U);
+  EXPECT_NEAR(summary.at("stiffness_median_kPa").get<double>() / 3.6, 1, 0.1);
+  EXPECT_LT(summary.at("stiffness_median_kPa_low"), summary.at("stiffness_median_kPa"));
+  EXPECT_LT(summary.at("stiffness_median_kPa"), summary.at("stiffness_median_kPa_high"));
+  EXPECT_NE(found.out.find(", the median of the population of "), std::string::npos) << found.out;
   // Gates that leave no event, and a tension that no cell of the table has.
   const Ended none = moduli({folder.string(), "--viscosity-mPas", "12", "--min", "index=100"});
   EXPECT_EQ(none.exit_code, 3);

@@ -71,6 +71,15 @@ TEST_F(Plot, WritesBothPicturesBesideTheRecording) {
   EXPECT_EQ(test::content_of(folder_ / "again.svg"), svg) << "the same picture each time, at the name that was given";
 }
 
+TEST_F(Plot, PicturesOfOthersAreNotReplaced) {
+  std::ofstream(folder_ / "a_rheocyte.svg") << "<svg>theirs</svg>";
+  expect_refusal({path("a.rtdc")}, "is there and was not written by rheocyte; give another name with -o");
+  EXPECT_EQ(test::content_of(folder_ / "a_rheocyte.svg"), "<svg>theirs</svg>");
+  EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte.png"));
+  for (int call = 0; call < 2; ++call)
+    EXPECT_EQ(plot({path("a.rtdc"), "-o", path("own")}).exit_code, 0) << "its own are";
+}
+
 TEST_F(Plot, NeedsNoTable) {
   const auto ended = plot({path("a.rtdc"), "-o", path("out"), "--quiet"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -236,12 +236,24 @@ TEST_F(SolveCommand, AnErrorOfTheProgramItselfIsExitCode1) {
 TEST_F(SolveCommand, TheUsersOwnFilesInAnOldResultAreKept) {
   ASSERT_EQ(run(solve("", {"--no-picture"})).exit_code, 0);
   write_file(result() / "notes.txt", "precious");
-  write_file(result() / "picture.png", "of the old result");
+  write_file(result() / "picture.png", std::string("\x89PNG Software\0rheocyte", 22));
   ASSERT_EQ(run(solve("", {"--no-picture", "--set", "cell.radius_um=6"})).exit_code, 0);
   EXPECT_EQ(content_of(result() / "notes.txt"), "precious");
   EXPECT_FALSE(fs::exists(result() / "picture.png"));
   EXPECT_EQ(numbers()["case"]["cell"]["radius_um"], 6.0);
   EXPECT_EQ(entries_beside(), 1);
+}
+
+TEST_F(SolveCommand, PicturesOfOthersAreNeitherReplacedNorRemoved) {
+  ASSERT_EQ(run(solve("", {"--no-picture"})).exit_code, 0);
+  write_file(result() / "picture.png", "theirs");
+  expect_sentence(run(solve("", {"--no-picture"})),
+                  "picture.png: is there and was not written by rheocyte; move it away");
+  expect_sentence(run({{RHEOCYTE, "picture", result()}}), "picture.png is there and was not drawn by rheocyte");
+  EXPECT_EQ(content_of(result() / "picture.png"), "theirs");
+  fs::remove(result() / "picture.png");
+  ASSERT_EQ(run({{RHEOCYTE, "picture", result()}}).exit_code, 0);
+  ASSERT_EQ(run({{RHEOCYTE, "picture", result()}}).exit_code, 0) << "its own are";
 }
 
 TEST_F(SolveCommand, APictureThatFailsIsAWarning) {

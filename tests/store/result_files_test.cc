@@ -63,8 +63,11 @@ TEST_F(ResultFilesTest, PicturesOfOthersAreNotOurs) {
   put("late.png", png + std::string(5000, 'x') + text);
   put("ours.svg", "<svg><metadata><dc:title>rheocyte</dc:title></metadata></svg>");
   put("theirs.svg", "<svg><metadata><dc:title>Matplotlib</dc:title></metadata></svg>");
-  for (const char* const name : {"ours.png", "ours.svg"}) EXPECT_TRUE(is_own_picture(folder_ / name)) << name;
-  for (const char* const name : {"late.png", "theirs.svg", "none.png"})
+  put("ours.gif", "GIF89a!\xFE\x08rheocyte");
+  put("theirs.gif", "GIF89a!\xFE\x05other");
+  for (const char* const name : {"ours.png", "ours.svg", "ours.gif"})
+    EXPECT_TRUE(is_own_picture(folder_ / name)) << name;
+  for (const char* const name : {"late.png", "theirs.svg", "theirs.gif", "none.png"})
     EXPECT_FALSE(is_own_picture(folder_ / name)) << name;
 }
 
