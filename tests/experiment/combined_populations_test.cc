@@ -24,7 +24,7 @@ class CellsOfStiffness : public ::testing::Test {
     const PopulationEvents events = events_of(law.parameters());
     RecordingReport report;
     report.recording = "cells.rtdc";
-    report.flow = events.flow();
+    static_cast<RecordingFacts&>(report) = events;
     report.median_viscosity_mPas = events.flow().viscosity_mPas;
     report.table = "HC-2D-EL-26";
     CombinedPopulations(options_).fit(events, report, [] {});
