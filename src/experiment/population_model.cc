@@ -55,11 +55,11 @@ void refuse_most_beyond(PopulationQuantity quantity, const std::optional<double>
   const std::string majority = r.beyond.majority(r.seen_events());
   if (majority.empty()) return;
   r.is_beyond = true;
-  const auto [key, symbol, unit] = words_of(quantity);
+  const QuantityWords words = words_of(quantity);
   std::string bound = "the others are a tail of all cells, whose median is unknown";
   if (log_bound && std::isfinite(*log_bound)) {
     r.bound = {quantity, *log_bound};
-    bound = fmt::format("the median of {} is below {:.3g} {}", symbol, std::exp(*log_bound), unit);
+    bound = fmt::format("the median of {} is below {:.3g} {}", words.symbol, std::exp(*log_bound), words.unit);
   }
   r.failure = fmt::format(
       "{} than the cells of the table {}, or too near its end: {}. Another channel, flow rate or medium brings them "
