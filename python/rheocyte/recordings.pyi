@@ -106,6 +106,23 @@ def population(
     patience: float | None = None,
     progress: _Progress = None,
 ) -> Population: ...
+def plan(
+    radius_um: float,
+    young_modulus_kPa: float,
+    *,
+    spread: float | None = None,
+    radius_spread: float | None = None,
+    between_recordings: float | None = None,
+    difference: float | None = None,
+    power: float | None = None,
+    cells: float | None = None,
+    mode_2: float | None = None,
+    pixel_size_um: float | None = None,
+    temperature: float | None = None,
+    width_um: ArrayLike | None = None,
+    medium: str | Sequence[str] | None = None,
+    rate_ul_s: ArrayLike | None = None,
+) -> pandas.DataFrame: ...
 def synth(
     spec: _Path | Mapping[str, Any],
     file: _Path,

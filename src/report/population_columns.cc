@@ -134,6 +134,14 @@ std::string names_of(const std::vector<std::filesystem::path>& recordings) {
   return joined(names, ", ");
 }
 
+/// Also where no recording has a number, so that the columns are there.
+std::vector<PopulationQuantity> quantities_of(const PopulationReport& report) {
+  auto quantities = report.quantities();
+  if (quantities.empty())
+    quantities = {report.model == "solid" ? PopulationQuantity::young_modulus : PopulationQuantity::stiffness};
+  return quantities;
+}
+
 }  // namespace
 
 const Columns<PopulationReport>& population_columns() {
@@ -157,7 +165,7 @@ Columns<RecordingReport> recording_columns(const PopulationReport& report) {
   using R = RecordingReport;
   ColumnList<R> list;
   add_identity(report, list);
-  for (const PopulationQuantity quantity : report.quantities())
+  for (const PopulationQuantity quantity : quantities_of(report))
     list.add_of(columns_of_recordings(quantity, report.level), [quantity](const R& r) { return r.estimate(quantity); });
   add_radius(list);
   if (report.model == "solid")
@@ -177,7 +185,7 @@ Columns<ConditionReport> condition_columns(const PopulationReport& report) {
   list.add({.name = "condition"}, &C::name);
   list.add_count("recordings", &C::recordings);
   list.add_count("events", &C::events);
-  for (const PopulationQuantity quantity : report.quantities())
+  for (const PopulationQuantity quantity : quantities_of(report))
     list.add_of(columns_of_conditions(quantity), [quantity](const C& c) -> const ConditionQuantity* {
       const auto found = std::ranges::find(c.quantities, quantity, &ConditionQuantity::quantity);
       return found == c.quantities.end() ? nullptr : &*found;

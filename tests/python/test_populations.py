@@ -165,13 +165,13 @@ def test_a_record_of_the_version_before_is_drawn_with_the_names_of_today(tmp_pat
 def test_a_plan_shows_what_follows_from_it():
     plan = rheocyte.plan(6.5, 2, width_um=20, medium="0.49% MC-PBS", rate_ul_s=0.04)
     assert all(line in repr(plan) for line in plan.attrs["lines"]) and plan.attrs["lines"]
-    assert type(plan[["width_um"]]) is type(plan)
+    assert type(plan[["channel_width_um"]]) is type(plan)
     assert plan["recommended"].dtype == bool and plan["channel_width_um"].tolist() == [20]
     with pytest.raises(UserError, match="medium is empty"):
         rheocyte.plan(6.5, 2, medium=[])
     with pytest.raises(UserError, match="width_um 0 is outside its range"):
         rheocyte.plan(6.5, 2, width_um=[20, 0])
-    with pytest.raises(UserError, match="radius_um is None"):
+    with pytest.raises(UserError, match="radius_um is not an array of numbers"):
         rheocyte.plan(None, 2)
 
 
@@ -207,8 +207,9 @@ def test_the_picture_of_cells_with_a_cortex_has_a_column_for_each_quantity(recor
 
 
 def test_errors_of_the_outline_are_told_and_must_be_small(tmp_path):
-    spec = {"recording": {"cells": 60}, "channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
-            "cell": {"radius_um": 6, "bulk": {"young_modulus_kPa": 4}}, "noise": {"contour_um": 0.05}}
+    spec = {"recording": {"cells": 100}, "channel": {"width_um": 20}, "flow": {"rate_ul_per_s": 0.04, "viscosity_mPas": 15},
+            "cell": {"radius_um": {"mean": 6, "sd": 0.4}, "bulk": {"young_modulus_kPa": {"mean": 4, "sd": 0.6}}},
+            "noise": {"contour_um": 0.05}}
     rheocyte.synth(spec, tmp_path / "a.rtdc")
     found = rheocyte.population({"a": tmp_path / "a.rtdc"}, outline_noise_um=0.05)
     assert found.record["outline_noise_um"] == 0.05

@@ -96,6 +96,14 @@ TEST(PopulationColumns, OfARecordingWithoutANumberAreNullAndNan) {
   EXPECT_NE(table.find("a\t2\tr1.rtdc\t100\tnan\tnan\tnan\t"), std::string::npos) << table;
 }
 
+TEST(PopulationColumns, AreThereWhereNoRecordingHasANumber) {
+  auto failed = recording(PopulationQuantity::young_modulus, 0);
+  failed.failure = "no number";
+  failed.quantities.clear();
+  EXPECT_TRUE(names_of(recording_columns(report_of("solid", {failed}))).contains("young_modulus_median_kPa"));
+  EXPECT_TRUE(names_of(condition_columns(report_of("cortex", {failed}))).contains("stiffness_median_kPa"));
+}
+
 /// Files of the version before begin with these words, too: they may be replaced.
 TEST(PopulationColumns, OfFilesBeginWithTheirMarks) {
   RecordingReport r = recording(PopulationQuantity::young_modulus, 0);
