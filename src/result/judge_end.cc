@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -100,11 +101,31 @@ std::optional<Problem> straight_from_here(const Result& result, const TimeRecord
   return problem;
 }
 
-/// Errors of a settled state's numbers by those of the stationary one; where its channel is another, only of those
-/// without a unit, and where the simulated piece has another length, not of the drop along it: those stay.
-StateNumbers errors_by(const StationaryState& stationary, bool is_other_channel, const StationaryState& settled) {
+/// What is left of the way of a cell whose deformation has settled: other numbers may still be on theirs. The changes
+/// of two tenths of the time are those of a geometric series.
+StateNumbers left_of_way(const TimeRecord& record) {
+  const std::vector<TimePoint>& steps = record.way.steps;
+  const auto state_before = [&](double fraction) {
+    const auto after = std::ranges::upper_bound(steps, fraction * steps.back().time, {}, &TimePoint::time);
+    return std::prev(after)->state;
+  };
+  const std::array states{state_before(1 - 2 * fraction_of_time), state_before(1 - fraction_of_time),
+                          steps.back().state};
+  std::array<double, states.size()> deformations{};
+  std::ranges::transform(states, deformations.begin(), [](const StateNumbers& at) { return at.shape.deformation; });
+  StateNumbers errors = errors_of_last(states, 0);
+  errors.shape.deformation = error_of_last(deformations);
+  return errors;
+}
+
+/// Errors of a settled state's numbers by those of the stationary one and by what is left of the way to it; where its
+/// channel is another, only of those without a unit, and where the simulated piece has another length, not of the drop
+/// along it: those stay.
+StateNumbers errors_by(const StationaryState& stationary, const StateNumbers& left, bool is_other_channel,
+                       const StationaryState& settled) {
   StateNumbers errors = distance(settled, stationary);
   add_errors(1, stationary.errors, errors);
+  add_errors(1, left, errors);
   for (const StateMeasure& measure : state_measures)
     if (is_other_channel && unit_of(measure.name).dimension != no_unit.dimension)
       measure.of(errors) = measure.value(settled.errors);
@@ -139,14 +160,14 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   record.stationary_error = stationary.errors.shape.deformation;
   const double distance = result.state.shape.deformation / stationary.shape.deformation - 1;
   const bool settled = record.end == TimeEnd::settled || has_settled(record, std::abs(distance), problem.accuracy);
-  const double d = stationary.shape.deformation, fraction = d / std::max(d, result.state.deformation_floor);
   if (settled) {
-    result.state.estimated_error = fraction * (std::abs(distance) + stationary.estimated_error);
+    const bool is_other_channel =
+        problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
+    result.state.errors = errors_by(stationary, left_of_way(record), is_other_channel, result.state);
+    result.state.estimated_error =
+        result.state.errors.shape.deformation / std::max(stationary.shape.deformation, result.state.deformation_floor);
     result.state.step_error = 0;  // whatever they were, the shape is the stationary one
   }
-  const bool is_other_channel =
-      problem.radius_ratio != result.problem.radius_ratio || problem.extent.width != result.problem.extent.width;
-  if (settled) result.state.errors = errors_by(stationary, is_other_channel, result.state);
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 

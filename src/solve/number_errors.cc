@@ -108,6 +108,11 @@ StateNumbers distance(const StateNumbers& a, const StateNumbers& b) {
   return differences;
 }
 
+void take_greater(const StateNumbers& others, StateNumbers& errors) {
+  for (const StateMeasure& measure : state_measures)
+    measure.of(errors) = std::max(measure.value(errors), measure.value(others));
+}
+
 void add_errors(double factor, const StateNumbers& more, StateNumbers& errors) {
   for (const StateMeasure& measure : state_measures) measure.of(errors) += factor * measure.value(more);
 }

@@ -31,6 +31,9 @@ StateNumbers errors_of_change(const StateNumbers& coarser, const StateNumbers&, 
 /// Magnitudes of the differences, number by number.
 StateNumbers distance(const StateNumbers&, const StateNumbers&);
 
+/// Takes the greater of two errors of each number; those that are not known stay so.
+void take_greater(const StateNumbers& others, StateNumbers& errors);
+
 /// Adds a multiple of errors to errors; what is not known of either is not of the sum.
 void add_errors(double factor, const StateNumbers& more, StateNumbers& errors);
 

@@ -32,6 +32,8 @@ struct OtherRun {
   Status status = Status::not_started;
   std::string fraction;  ///< of the way
   TimeWay way = {};      ///< at the steps and outputs of the first run
+  /// At its steps by time or place, as the outputs are read.
+  std::vector<TimePoint> levels = {};
   StateNumbers end = {};
 
   bool has_arrived() const { return status == Status::converged; }
@@ -54,6 +56,8 @@ OtherRun follow_again(const FollowedRun& first, double accuracy, const Resolutio
   if (!first.is_at_place) run.end_position = HUGE_VAL;
   std::vector<TimeProbe> probes{probe_at(first.way.steps, first.is_at_place),
                                 probe_at(first.way.outputs, run.outputs_by_place)};
+  const bool reads_steps_twice = first.is_at_place != run.outputs_by_place;
+  if (reads_steps_twice) probes.push_back(probe_at(first.way.steps, run.outputs_by_place));
   TimeFollower follower(first.problem, run, resolution, {}, limits);
   const StationaryState end = follower.follow(nullptr, &probes);
   return {accuracy,
@@ -62,6 +66,7 @@ OtherRun follow_again(const FollowedRun& first, double accuracy, const Resolutio
           end.outcome.status,
           follower.fraction(),
           {probes[0].seen, probes[1].seen},
+          reads_steps_twice ? probes[2].seen : probes[0].seen,
           end};
 }
 
@@ -85,6 +90,25 @@ struct OtherRuns {
   }
 };
 
+/// The two parts of the errors of a state's numbers.
+struct ErrorParts {
+  StateNumbers steps, mesh;
+
+  StateNumbers sum() const {
+    StateNumbers errors = steps;
+    add_errors(1, mesh, errors);
+    return errors;
+  }
+};
+
+/// The cell is incompressible: what its volume is off by is known. At the end of a step this is next to nothing, but
+/// not between steps, where two runs may agree.
+void know_of_volume(const StateNumbers& numbers, StateNumbers& errors) {
+  const double change = numbers.relative_volume_change;
+  errors.relative_volume_change = std::max(errors.relative_volume_change, std::abs(change));
+  errors.shape.volume = std::max(errors.shape.volume, std::abs(change) / (1 + change) * numbers.shape.volume);
+}
+
 /// The same numbers of the runs, at a step, an output or the end (docs/theory-time.md, eq:error-in-time).
 struct Compared {
   const StateNumbers &first, &steps, *coarse, *fine;
@@ -94,6 +118,7 @@ struct Compared {
   StateNumbers error_of_steps() const {
     StateNumbers errors = errors_of_change(steps, first, min_outline);
     add_errors(factor - 1, errors, errors);
+    know_of_volume(first, errors);
     return errors;
   }
   StateNumbers error_of_mesh() const {
@@ -107,20 +132,52 @@ struct Compared {
     add_errors(1, errors_of_last(ladder, left), errors);
     return errors;
   }
-  StateNumbers error() const {
-    StateNumbers errors = error_of_steps();
-    add_errors(1, error_of_mesh(), errors);
-    return errors;
+  ErrorParts error() const { return {error_of_steps(), error_of_mesh()}; }
+};
+
+/// By the numbers of the runs at the same points of the way, or in the last state.
+Compared compared(const StateNumbers& first, const OtherRuns& others, const auto& numbers) {
+  const auto of = [&](const OtherRun& run) { return run.has_arrived() ? &numbers(run) : nullptr; };
+  return {first,           numbers(others.steps),    of(others.coarse),
+          of(others.fine), others.factor_of_steps(), others.min_outline()};
+}
+
+std::vector<ErrorParts> error_parts(const std::vector<TimePoint>& points, const OtherRuns& others,
+                                    const auto& points_of) {
+  std::vector<ErrorParts> errors;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto here = [&](const OtherRun& run) -> const StateNumbers& { return points_of(run)[i].state; };
+    errors.push_back(compared(points[i].state, others, here).error());
+  }
+  return errors;
+}
+
+/// The first run's errors at its levels, the ends of its steps. A state is one of a polynomial through order + 1 levels
+/// (docs/theory-time.md, eq:error-of-levels): what they are off by makes its error. The change to another run, whose steps are
+/// others, passes zero in one of them by chance, but not in all.
+struct LevelErrors {
+  const std::vector<TimePoint>& levels;
+  std::vector<ErrorParts> errors;
+
+  /// Of a state at a time, for which those of its own change are given, in place of them.
+  ErrorParts around(double time, ErrorParts own) const {
+    const auto last = std::ranges::lower_bound(levels, time, {}, &TimePoint::time);
+    if (last == levels.end()) return own;
+    const std::size_t at = std::size_t(last - levels.begin()), before = std::min<std::size_t>(at, last->order);
+    for (std::size_t i = at - before; i <= at; ++i) {
+      take_greater(errors[i].steps, own.steps);
+      take_greater(errors[i].mesh, own.mesh);
+    }
+    return own;
   }
 };
 
 /// Of times and positions no error becomes smaller on the way; a place at a time is no better than a step.
 std::vector<TimePoint> errors_at(const std::vector<TimePoint>& points, const OtherRuns& others,
-                                 std::vector<TimePoint> TimeWay::*which, bool by_place) {
+                                 std::vector<TimePoint> TimeWay::*which, bool by_place, const LevelErrors& levels) {
   const OtherRun& other = others.fine.has_arrived() ? others.fine : others.coarse;
-  const auto numbers = [&](const OtherRun& run, std::size_t i) {
-    return run.has_arrived() ? &(run.way.*which)[i].state : nullptr;
-  };
+  const std::vector<ErrorParts> parts = error_parts(
+      points, others, [&](const OtherRun& run) -> const auto& { return run.way.*which; });
   std::vector<TimePoint> errors;
   double time = by_place ? others.accuracy : 0, position = by_place ? 0 : others.accuracy;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -131,10 +188,7 @@ std::vector<TimePoint> errors_at(const std::vector<TimePoint>& points, const Oth
     };
     time = std::max(time, error_of(&TimePoint::time));
     position = std::max(position, error_of(&TimePoint::position));
-    const Compared compared{points[i].state,           steps.state,
-                            numbers(others.coarse, i), numbers(others.fine, i),
-                            others.factor_of_steps(),  others.min_outline()};
-    errors.push_back({.time = time, .position = position, .state = compared.error()});
+    errors.push_back({.time = time, .position = position, .state = levels.around(points[i].time, parts[i]).sum()});
   }
   return errors;
 }
@@ -205,19 +259,19 @@ TimeWay estimate_errors(const FollowedRun& first, const WorkLimits& limits, Stat
     return {};
   }
   const OtherRun& mesh = others.fine.has_arrived() ? others.fine : others.coarse;
-  const auto end_of = [](const OtherRun& run) { return run.has_arrived() ? &run.end : nullptr; };
-  const Compared compared{result,
-                          others.steps.end,
-                          end_of(others.coarse),
-                          end_of(others.fine),
-                          others.factor_of_steps(),
-                          others.min_outline()};
-  result.step_error = compared.error_of_steps().shape.deformation / size;
-  result.errors = compared.error();
+  const auto at_steps = [](const OtherRun& run) -> const auto& { return run.way.steps; };
+  const auto at_levels = [](const OtherRun& run) -> const auto& { return run.levels; };
+  const auto at_end = [](const OtherRun& run) -> const StateNumbers& { return run.end; };
+  const std::vector<TimePoint>& steps = first.way.steps;
+  const LevelErrors of_steps{steps, error_parts(steps, others, at_steps)};
+  const LevelErrors of_outputs{steps, error_parts(steps, others, at_levels)};
+  const ErrorParts end = of_steps.around(steps.back().time, compared(result, others, at_end).error());
+  result.step_error = end.steps.shape.deformation / size;
+  result.errors = end.sum();
   result.estimated_error = result.errors.shape.deformation / size;
   result.outcome.message += told(mesh, others, d);
-  return {errors_at(first.way.steps, others, &TimeWay::steps, first.is_at_place),
-          errors_at(first.way.outputs, others, &TimeWay::outputs, first.run.outputs_by_place)};
+  return {errors_at(steps, others, &TimeWay::steps, first.is_at_place, of_steps),
+          errors_at(first.way.outputs, others, &TimeWay::outputs, first.run.outputs_by_place, of_outputs)};
 }
 
 }  // namespace rheocyte

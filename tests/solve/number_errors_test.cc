@@ -110,6 +110,19 @@ TEST(NumberErrors, InTimeAreTheChangesToCoarserStepsAndACoarserMesh) {
   expect_honest(state, fine);
 }
 
+TEST(NumberErrors, OfTwoTheGreaterOneIsTakenOfEachNumberThatIsKnown) {
+  StateNumbers errors = unknown_numbers(), others = unknown_numbers();
+  errors.shape.area = 1;
+  others.shape.area = 2;
+  errors.shape.perimeter = 3;
+  others.shape.perimeter = 1;
+  others.cell_velocity = 1;
+  take_greater(others, errors);
+  EXPECT_EQ(errors.shape.area, 2);
+  EXPECT_EQ(errors.shape.perimeter, 3);
+  EXPECT_TRUE(std::isnan(errors.cell_velocity));
+}
+
 TEST(ErrorOfLast, IsTheRestOfAGeometricSeries) {
   // 1 + 1/2 + 1/4: 1/4 is left. Of two values it is twice their difference; one tells nothing.
   EXPECT_DOUBLE_EQ(error_of_last(std::array{1.0, 1.5, 1.75}), 0.25);

@@ -96,6 +96,29 @@ TEST_P(TimeErrors, ContainThoseOfStepsAndMesh) {
 
 INSTANTIATE_TEST_SUITE_P(Accuracies, TimeErrors, testing::Values(3e-3, 1e-3, 1e-4));
 
+/// Into the contraction, with outputs several times as dense as the steps.
+TimeRun run_with_many_outputs() {
+  TimeRun run{HUGE_VAL, 0.01, 1e-3, 4};
+  run.end_position = 1;
+  run.estimates_error = true;
+  return run;
+}
+
+TEST(TimeErrorsOfARun, ContainWhatTheVolumeOfAnIncompressibleCellIsOff) {
+  // Exactly, between steps, too, where the shape is interpolated; of the volume to its rounding.
+  const Followed here = followed(moving_cell(true), run_with_many_outputs());
+  ASSERT_FALSE(here.errors.outputs.empty());
+  const double volume = here.way.outputs.front().state.shape.volume;
+  double greatest = 0;
+  for (std::size_t i = 0; i < here.errors.outputs.size(); ++i) {
+    const StateNumbers &numbers = here.way.outputs[i].state, &errors = here.errors.outputs[i].state;
+    EXPECT_GE(errors.relative_volume_change, std::abs(numbers.relative_volume_change)) << i;
+    EXPECT_GE(errors.shape.volume, std::abs(numbers.shape.volume - volume) - 1e-12 * volume) << i;
+    greatest = std::max(greatest, std::abs(numbers.relative_volume_change));
+  }
+  EXPECT_GT(greatest, 1e-8) << "interpolated";
+}
+
 TEST(TimeErrorsOfARun, AreThoseOfEveryStepAndOutputAlsoWhereTheCellSettles) {
   // The time is that of a run by time; errors of the place accumulate.
   TimeRun run{5000 / unit_us, 100 / unit_us, 1e-4, 3};
