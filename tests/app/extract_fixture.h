@@ -2,9 +2,11 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "case/split.h"
 #include "lookup_table_file.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
@@ -19,6 +21,16 @@ inline std::vector<double> column(const Recording& recording, const std::string&
   std::vector<double> values(recording.events());
   recording.read_scalar(feature, 0, values);
   return values;
+}
+
+/// How many events the summary says that a recording has; empty without a line of it.
+inline std::string events_in_summary(const std::filesystem::path& summary, const std::string& recording) {
+  const auto lines = split(content_of(summary), '\n');
+  const auto names = split(lines.front(), '\t');
+  const auto at = std::size_t(std::ranges::find(names, "events") - names.begin());
+  for (const auto& line : lines)
+    if (const auto cells = split(line, '\t'); cells.front() == recording) return cells.at(at);
+  return {};
 }
 
 /// A folder with a table and what the test puts into it.
