@@ -34,6 +34,7 @@ def test_what_is_recommended_is_the_same_wherever_it_stands(program, tmp_path):
 
 def test_results_of_the_same_settings_have_one_hash(program, tmp_path):
     """In the frame, the summary, the table of events and the log of the companion; not that of another table, viscosity or gate."""
+    pytest.importorskip("hdf5plugin")
     h5py = pytest.importorskip("h5py")
     for seed in (1, 2):
         rheocyte.synth(CELLS, tmp_path / f"{seed}.rtdc", recording__seed=seed)
