@@ -16,6 +16,7 @@ Setting numbers(std::string_view name, std::string_view label, std::vector<doubl
           .label = label,
           .place = &place,
           .sentence = sentence,
+          .type_name = "NUMBER,NUMBER",
           .unit = unit,
           .separator = ',',
           .range = range};
@@ -29,7 +30,8 @@ Settings settings_of(PlanOptions& o) {
   Setting rates = numbers("rate_ul_s", "Flow rates", o.rates_ul_s, {1e-9, 1000}, "flow rates", "ul/s");
   rates.otherwise = "those of mean speeds of 0.04, 0.1, 0.2 and 0.4 m/s";
   return {number("radius_um", "Radius", o.radius_um, {0.1, 1000}, "radius of the median cell at rest", "um"),
-          number("young_modulus_kPa", "Young's modulus", o.young_modulus_kPa, {1e-4, 1e6}, "of the median cell", "kPa"),
+          number("young_modulus_kPa", "Young's modulus", o.young_modulus_kPa, {1e-4, 1e6},
+                 "Young's modulus of the median cell", "kPa"),
           number("spread", "Spread", o.spread, {0.001, 2}, "standard deviation of ln E between cells"),
           number("radius_spread", "Spread of the radius", o.radius_spread, {0, 1},
                  "standard deviation of ln r0 between cells"),
@@ -42,7 +44,12 @@ Settings settings_of(PlanOptions& o) {
           number("pixel_size_um", "Pixel size", o.pixel_size_um, {0.01, 10}, "size of a pixel", "um"),
           std::move(temperature),
           numbers("width_um", "Channel widths", o.widths_um, {1, 10000}, "widths of the channels", "um"),
-          {.name = "medium", .label = "Media", .place = &o.media, .sentence = "media", .separator = ','},
+          {.name = "medium",
+           .label = "Media",
+           .place = &o.media,
+           .sentence = "media in which the cells flow",
+           .type_name = "MEDIUM,MEDIUM",
+           .separator = ','},
           std::move(rates)};
 }
 

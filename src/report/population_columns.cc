@@ -126,8 +126,6 @@ void add_outcome(ColumnList<RecordingReport>& list) {
   list.add({.name = "failure", .sentence = "why there is no number"}, &R::failure);
 }
 
-const char* interval_by(bool recordings) { return recordings ? "scatter of the recordings" : "sampling of the events"; }
-
 std::string names_of(const std::vector<std::filesystem::path>& recordings) {
   std::vector<std::string> names;
   for (const auto& recording : recordings) names.push_back(recording.string());
@@ -215,8 +213,9 @@ Columns<ConditionComparison> comparison_columns(const PopulationReport& report) 
   list.add_with_interval({.name = "ratio", .sentence = "of the medians, treated over control"}, ratio(&D::value),
                          ratio(&D::lower), ratio(&D::upper));
   list.add({.name = "p"}, number(&D::p));
-  list.add({.name = "interval_by"},
-           [](const C& c) { return interval_by(std::isfinite(c.difference.lower) && !c.difference.is_by_sampling); });
+  list.add({.name = "interval_by"}, [](const C& c) {
+    return interval_words(std::isfinite(c.difference.lower) && !c.difference.is_by_sampling);
+  });
   list.add({.name = "degrees_of_freedom"}, number(&D::freedom));
   list.add_with_error({.name = "ln_ratio"}, number(&D::value), number(&D::standard_error));
   list.add({.name = "ratio_by_sampling_low", .sentence = "as if recordings did not scatter"},

@@ -32,6 +32,10 @@ ColumnList<Row> quantity_list(PopulationQuantity quantity, const LogMedian& log_
 
 }  // namespace
 
+std::string_view interval_words(bool is_by_recordings) {
+  return is_by_recordings ? "scatter of the recordings" : "sampling of the events";
+}
+
 Columns<QuantityEstimate> columns_of_recordings(PopulationQuantity quantity, double level) {
   using E = QuantityEstimate;
   auto list = quantity_list<E>(quantity, [level](const E& e) -> IntervalEstimate {
@@ -55,8 +59,7 @@ Columns<ConditionQuantity> columns_of_conditions(PopulationQuantity quantity) {
   const auto power = [](double Stiffening::*of) {
     return [of](const Q& q) { return q.stiffening ? (*q.stiffening).*of : no_value; };
   };
-  list.add({.name = name + "_interval_by"},
-           [](const Q& q) { return q.is_by_recordings ? "scatter of the recordings" : "sampling of the events"; });
+  list.add({.name = name + "_interval_by"}, [](const Q& q) { return interval_words(q.is_by_recordings); });
   list.add_with_interval(
       {.name = name + "_ln_scatter",
        .sentence = "standard deviation of ln of the medians between "
