@@ -11,9 +11,9 @@
 namespace rheocyte::direction_of_cells_test {
 namespace {
 
-/// Of twenty outlines of this area, twice as long as wide, with a third mode.
+/// Of twenty ellipses of this area, 2.6 times as long as wide, with a third mode.
 int direction_of(double area_um2, double mode_3) {
-  constexpr double pixel_um = 0.34, mode_2 = 0.4;
+  constexpr double pixel_um = 0.34, aspect = 2.6;
   constexpr int points = 120;
   const test::ScratchFolder folder;
   {
@@ -25,7 +25,9 @@ int direction_of(double area_um2, double mode_3) {
       std::vector<int> xy;
       for (int k = 0; k < points; ++k) {
         const double angle = 2 * std::numbers::pi * k / points,
-                     r = radius_px * (1 + mode_2 * std::cos(2 * angle) + mode_3 * std::cos(3 * angle));
+                     ellipse = radius_px /
+                               std::hypot(std::cos(angle) / std::sqrt(aspect), std::sin(angle) * std::sqrt(aspect)),
+                     r = ellipse * (1 + mode_3 * std::cos(3 * angle));
         xy.push_back(int(std::lround(60 + 0.1 * event + r * std::cos(angle))));
         xy.push_back(int(std::lround(40 + r * std::sin(angle))));
       }
