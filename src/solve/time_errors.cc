@@ -153,8 +153,8 @@ std::vector<ErrorParts> error_parts(const std::vector<TimePoint>& points, const 
 }
 
 /// The first run's errors at its levels, the ends of its steps. A state is one of a polynomial through order + 1 levels
-/// (docs/theory-time.md, eq:error-of-levels): what they are off by makes its error. The change to another run, whose steps are
-/// others, passes zero in one of them by chance, but not in all.
+/// (docs/theory-time.md, eq:error-of-levels): what they are off by makes its error. The change to another run, whose
+/// steps are others, passes zero in one of them by chance, but not in all.
 struct LevelErrors {
   const std::vector<TimePoint>& levels;
   std::vector<ErrorParts> errors;
