@@ -92,7 +92,7 @@ class Recordings {
                               .pixel_size_um = pixel_um,
                               .log_area = log_area_,
                               .outline_noise = {.deviation = wanted_.known_noise}};
-    return fit_combined_population(moduli_, seen, cells, [] {});
+    return fit_combined_population(moduli_, seen, cells, {});
   }
 
  private:

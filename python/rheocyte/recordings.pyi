@@ -56,7 +56,6 @@ def moduli(
     fit_tension: bool = False,
     axial_tension_Pa: float | None = None,
     outline_noise_um: float | None = None,
-    only_figure: bool = False,
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def time_course(

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "measurement/recording.h"
-#include "store/progress.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -17,8 +17,10 @@ class EventPass {
   EventPass(const EventPass&) = delete;
   EventPass& operator=(const EventPass&) = delete;
 
-  /// For long work on single events: tells that it goes on. It may be called as often as one likes.
-  const std::function<void()>& goes_on() const { return goes_on_; }
+  /// For long work on single events: tells that it goes on. It may be asked as often as one likes.
+  Watch watch() const {
+    return {.stop = [this] { return goes_on_(), false; }};
+  }
 
   /// work(first, count) on events [first, first + count), with `at_a_time` events but for the last block.
   void in_blocks(std::size_t at_a_time, const std::function<void(std::size_t first, std::size_t count)>& work);

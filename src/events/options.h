@@ -47,7 +47,6 @@ struct ModuliOptions {
   bool fit_tension = false;                ///< as a third unknown
   std::optional<double> axial_tension_Pa;  ///< of the liquid; not given: found for each recording
   std::optional<double> outline_noise_um;  ///< OutlineNoise::deviation; not given: 0
-  bool only_figure = false;                ///< by deformation and Lambda1 / Lambda2 in place of the whole contour
   std::optional<Section> section;          ///< in which the cells were seen; not given: section_seen
 };
 

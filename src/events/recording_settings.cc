@@ -169,9 +169,7 @@ Settings settings_of(ModuliOptions& o) {
       together({seen_section(o.section)}, settings_of(o.measuring)),
       {setting("fit_tension", "Fit tension", &o.fit_tension,
                "the tension of the cortex, too, by a table with several of them; tables of elongated cells always do"),
-       tension, outline_noise(o.outline_noise_um),
-       setting("only_figure", "Only figure", &o.only_figure,
-               "by area, deformation and Lambda1/Lambda2, the measures of the paper's figure 9")});
+       tension, outline_noise(o.outline_noise_um)});
 }
 
 Settings settings_of(TimeCourseOptions& o) { return together({seen_section(o.section)}, settings_of(o.measuring)); }

@@ -100,7 +100,7 @@ void PopulationAnalysis::add(std::size_t condition, std::size_t session, const P
   check_new(r, events);
   check_outline_noise(r.recording, options_.outline_noise_um.value_or(0), events.pixel_size_um,
                       {events.median_shape(), events.of(SeenMeasure::mode_7)});
-  model_->fit(events, r, [&watch] { watch.go_on(); });
+  model_->fit(events, r, watch);
   recordings_.push_back(std::move(r));
 }
 

@@ -237,8 +237,7 @@ std::string CombinedPopulations::systematic_errors(std::span<const RecordingRepo
          "; pixels below the intervals; viscosity model as docs/verification.md has it";
 }
 
-void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r,
-                              const std::function<void()>& goes_on) {
+void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r, const Watch& watch) {
   std::vector<MeasuredCell> cells;
   for (std::size_t i = 0; i < events.events(); ++i) cells.push_back(cell_of(events, i));
   r.fitted_events = cells.size();
@@ -250,7 +249,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
                             .pixel_size_um = events.pixel_size_um,
                             .log_area = log_area_gate(events.least_area_um2, events.greatest_area_um2),
                             .outline_noise = {.deviation = outline_noise_um_}};
-  combined.found = fit_combined_population(moduli_, seen, cells, goes_on);
+  combined.found = fit_combined_population(moduli_, seen, cells, watch);
   const MomentFit& fit = combined.found.fit;
   if (!fit.is_found) {
     r.failure =

@@ -19,7 +19,7 @@ class CombinedPopulations : public PopulationModel {
   }
   std::string table(const PopulationEvents&) override { return table_.name; }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
-  void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) override;
+  void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
 
  private:
   std::optional<Section> wanted_section_;

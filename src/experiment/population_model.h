@@ -9,6 +9,7 @@
 #include "events/options.h"
 #include "experiment/population_events.h"
 #include "experiment/recording_report.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -21,9 +22,9 @@ class PopulationModel {
   virtual std::string table(const PopulationEvents& events) = 0;
   /// What the recordings have in common, in words, with relative errors.
   virtual std::string systematic_errors(std::span<const RecordingReport> recordings) const = 0;
-  /// Fits the population of a recording and adds what is found, or why there are no numbers; `goes_on` is called from
+  /// Fits the population of a recording and adds what is found, or why there are no numbers; `watch` is asked from
   /// step to step where that takes long. UserError: too few events, none inside the gates, gates that leave a tail.
-  virtual void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) = 0;
+  virtual void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) = 0;
 };
 
 /// `--model`: solids, or solids with a cortex. UserError if it is none, or a table is missing, or does not go with it.

@@ -66,7 +66,7 @@ std::string SolidPopulations::systematic_errors(std::span<const RecordingReport>
       maps_.by() == StiffnessMeasure::asymmetry ? "c3" : "deformation", 100 * table_error_);
 }
 
-void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, const std::function<void()>&) {
+void SolidPopulations::fit(const PopulationEvents& events, RecordingReport& r, const Watch&) {
   table_error_ = std::max(table_error_, maps_.table_error(events));
   const PopulationSample made = population_sample(events, maps_, {no_bins_});
   r.beyond = made.beyond;

@@ -19,7 +19,7 @@ class SolidPopulations : public PopulationModel {
   std::string_view elongation_text() const override { return "eliminated event by event, with a flat prior"; }
   std::string table(const PopulationEvents& events) override { return maps_.table(events); }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
-  void fit(const PopulationEvents& events, RecordingReport& report, const std::function<void()>& goes_on) override;
+  void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
 
  private:
   PopulationMaps maps_;

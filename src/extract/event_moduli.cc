@@ -14,9 +14,8 @@ namespace rheocyte {
 namespace {
 
 /// With a tension of the liquid one mode more: there is one unknown more.
-std::vector<int> features_of(const ModuliOptions& options, const ModuliTable& table) {
+std::vector<int> features_of(const ModuliTable& table) {
   constexpr int last_of_elongated = 7;
-  if (options.only_figure) return features_of_figure();
   return table.between.is_elongated() ? features_of_contour(last_of_elongated) : features_of_contour();
 }
 
@@ -50,10 +49,6 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
         "rheocyte: --axial-tension-Pa needs a table of elongated cells (table.axial_ratio); those of {} have "
         "none.",
         content.spec.identifier));
-  if (options.only_figure && between.is_elongated() && !options.axial_tension_Pa)
-    throw UserError(
-        "rheocyte: --only-figure leaves too few features to find the axial tension; give --axial-tension-Pa, or leave "
-        "--only-figure out.");
 }
 
 Section ModuliTable::section_of(const Recording& recording, std::optional<Section> wanted) const {
@@ -94,7 +89,7 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
       pixels_(table.between, settings.pixel_size_um * table.simulated.width_um / flow_.width_um,
               outline_noise_.scaled(table.simulated.width_um / flow_.width_um)),
       moduli_(table.between, table.simulated,
-              {features_of(options, table), has_free_tension(options, table), table.between.tension_ratios().front()}),
+              {features_of(table), has_free_tension(options, table), table.between.tension_ratios().front()}),
       tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {}
 
 ModuliEstimate EventModuli::fit(const ShapeVector& seen, double viscosity_mPas) const {
@@ -110,15 +105,15 @@ std::optional<SeenCell> EventModuli::seen_cell(const MeasuredCell& measured, dou
   return SeenCell{seen->shape, measured.flow, measured.cells};
 }
 
-void EventModuli::tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area,
-                           const std::function<void()>& goes_on, AxialSummary& summary) const {
+void EventModuli::tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area, const Watch& watch,
+                           AxialSummary& summary) const {
   summary.law = {.cells = cells.size(), .axial_tension = tension_};
-  if (cells.empty() || moduli_.features() == features_of_figure()) return;
+  if (cells.empty()) return;
   const ChannelFlow flow = median_of(cells).flow;
   SeenPopulation seen{
       .sight = sight(flow), .pixel_size_um = pixel_size_um_, .log_area = log_area, .outline_noise = outline_noise_};
   if (tension_.error_Pa == 0) seen.axial_tension_Pa = tension_.value_Pa;
-  const CombinedPopulation found = fit_combined_population(moduli_, seen, cells, goes_on);
+  const CombinedPopulation found = fit_combined_population(moduli_, seen, cells, watch);
   summary.beyond = events_beyond(found);
   if (found.fit.is_found && summary.beyond.majority(cells.size()).empty())
     summary.law = law_of_cells(found, wall_shear_stress_Pa(flow));

@@ -8,6 +8,7 @@
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
 #include "shelf/square_section.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -53,8 +54,8 @@ class EventModuli {
 
   /// The law of the cells in pixels whose measured ln of the area such a gate passes, with what is known of the
   /// tension: none by so few features that they do not tell it, nor where most cells lie on one side of the table.
-  /// `goes_on` is called from step to step.
-  void tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area, const std::function<void()>& goes_on,
+  /// `watch` is asked from step to step.
+  void tell_law(std::span<const MeasuredCell> cells, const ValueGate& log_area, const Watch& watch,
                 AxialSummary& summary) const;
   /// With what is known of the tension.
   MedianCell median_cell(std::span<const MeasuredCell> cells) const;

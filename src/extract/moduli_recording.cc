@@ -30,10 +30,9 @@ constexpr std::size_t events_between_progress = 256, events_of_survey = 256;
 /// One recording on its way through the blocks.
 class Fits {
  public:
-  /// `goes_on` is called from event to event.
-  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table, int threads,
-       std::function<void()> goes_on)
-      : goes_on_(std::move(goes_on)),
+  /// `watch` is asked from event to event.
+  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table, int threads, Watch watch)
+      : watch_(std::move(watch)),
         threads_(threads),
         events_(recording, options.measuring, {.outlines = OutlineUse::required, .outlines_for = use_of_outlines}),
         simulated_exponent_(table.simulated.exponent),
@@ -75,7 +74,7 @@ class Fits {
     for (const MeasuredCell& cell : cells) wall_stresses.push_back(wall_shear_stress_Pa(cell.flow));
     axial_.wall_stress_Pa = median_of(wall_stresses);
     const auto area_um2 = events_.gates().limits_of("area_um");
-    moduli_.tell_law(cells, log_area_gate(area_um2.min, area_um2.max), goes_on_, axial_);
+    moduli_.tell_law(cells, log_area_gate(area_um2.min, area_um2.max), watch_, axial_);
     moduli_.know_tension(axial_.law.axial_tension);
   }
 
@@ -109,7 +108,7 @@ class Fits {
     for (std::size_t i = 0; i < count; ++i)
       if (events_.is_inside(i))
         fits.add(0, [this, i, viscosity](int thread) {
-          if (thread == 0) goes_on_();
+          if (thread == 0) watch_.go_on();
           estimates_[i] = moduli_.fit(seen_[i], viscosity[i]);
         });
     fits.run(threads_);
@@ -158,12 +157,11 @@ class Fits {
 
  private:
   std::string way_text(const ModuliOptions& options) const {
-    return fmt::format("by {}; {}",
-                       options.only_figure            ? "area, deformation and Lambda1/Lambda2"
-                       : axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour"
-                                                      : "area and modes 2 .. 6 of the contour",
-                       options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
-                                                                           : "the tension is that of the table");
+    return fmt::format(
+        "by {}; {}",
+        axial_.is_of_elongated_cells ? "area and modes 2 .. 7 of the contour" : "area and modes 2 .. 6 of the contour",
+        options.fit_tension || axial_.is_of_elongated_cells ? "the tension of the cortex is fitted"
+                                                            : "the tension is that of the table");
   }
 
   std::string hash_of_settings(const ModuliOptions& options) const {
@@ -194,7 +192,7 @@ class Fits {
       events.read(first, count);
       for (std::size_t i = 0; i < count; ++i) {
         if (!events.is_inside(i)) continue;
-        goes_on_();
+        watch_.go_on();
         MeasuredCell cell = moduli_.measured(events.shape(first + i), events.viscosity_mPas()[i]);
         if (cell.shape.allFinite() && std::isfinite(cell.flow.viscosity_mPas)) cells.push_back(std::move(cell));
       }
@@ -234,7 +232,7 @@ class Fits {
     return estimate;
   }
 
-  std::function<void()> goes_on_;
+  Watch watch_;
   int threads_;
   EventReader events_;
   double simulated_exponent_;
@@ -265,7 +263,7 @@ ModuliSummary moduli_of_recording(const std::filesystem::path& path, const Modul
                                   const TellProgress& report_progress) {
   Recording recording(path);
   EventPass pass(recording, report_progress);
-  Fits fits(recording, options, table, threads, pass.goes_on());
+  Fits fits(recording, options, table, threads, pass.watch());
   fits.survey(recording, options);
   consumer.begin(recording, fits.lines(options));
   pass.in_blocks(events_between_progress,

@@ -28,7 +28,7 @@ ShapeErrors pixels_of(const ShapeVector& measured, const SeenPopulation& seen) {
 /// Means within the table, but for the radius and the stiffness; spreads above what nobody sees. `axial`: the tension
 /// over the wall's shear stress, if it is known.
 MomentSettings moment_settings(const CombinedInterpolation& table, const std::optional<double>& axial,
-                               const std::function<void()>& goes_on) {
+                               const Watch& watch) {
   using enum CombinedParameter;
   const CellBox& box = table.box();
   MomentSettings settings;
@@ -45,7 +45,7 @@ MomentSettings moment_settings(const CombinedInterpolation& table, const std::op
   within(log_fraction_spread, std::log(0.01), std::log(0.12));
   within(log_ratio_spread, std::log(0.01), std::log(0.15));
   within(log_axial_spread, std::log(0.01), std::log(0.3));
-  settings.goes_on = goes_on;
+  settings.watch = watch;
   return settings;
 }
 
@@ -87,14 +87,14 @@ ValueGate within_both(const ValueGate& a, const ValueGate& b) {
 class CombinedSearch {
  public:
   CombinedSearch(const BulkCortexFit& moduli, const SeenPopulation& seen, std::span<const MeasuredCell> cells,
-                 const std::function<void()>& goes_on)
+                 const Watch& watch)
       : moduli_(moduli),
         seen_(seen),
         cells_(cells),
         median_(median_of(cells)),
         model_(moduli, {median_.flow, seen.sight.section, seen.sight.error_factor}, seen.pixel_size_um,
                seen.outline_noise),
-        settings_(moment_settings(moduli.table(), axial_tension_of(seen, median_.flow), goes_on)) {
+        settings_(moment_settings(moduli.table(), axial_tension_of(seen, median_.flow), watch)) {
     inside_.resize(cells.size());
     std::iota(inside_.begin(), inside_.end(), 0);
     std::ranges::sort(inside_,
@@ -221,8 +221,8 @@ LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress
 }
 
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
-                                           std::span<const MeasuredCell> cells, const std::function<void()>& goes_on) {
-  return CombinedSearch(moduli, seen, cells, goes_on).find();
+                                           std::span<const MeasuredCell> cells, const Watch& watch) {
+  return CombinedSearch(moduli, seen, cells, watch).find();
 }
 
 }  // namespace rheocyte

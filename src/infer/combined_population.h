@@ -16,6 +16,7 @@
 #include "numeric/no_value.h"
 #include "population/fit_moments.h"
 #include "population/normal_nodes.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -75,6 +76,6 @@ inline constexpr std::size_t fewest_cells_of_population = 20;
 /// events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
 /// viscosity alone. The order of the cells does not change a digit.
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
-                                           std::span<const MeasuredCell> cells, const std::function<void()>& goes_on);
+                                           std::span<const MeasuredCell> cells, const Watch& watch);
 
 }  // namespace rheocyte

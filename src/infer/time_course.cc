@@ -291,8 +291,7 @@ Credible around(double logarithm, double error) {
 
 }  // namespace
 
-PopulationEstimate TimeCourse::population(std::span<const CellImages> cells,
-                                          const std::function<void()>& goes_on) const {
+PopulationEstimate TimeCourse::population(std::span<const CellImages> cells, const Watch& watch) const {
   const std::size_t count = std::min(cells.size(), max_cells);
   std::vector<CellImages> chosen;
   for (std::size_t i = 0; i < count; ++i) chosen.push_back(cells[i * cells.size() / count]);
@@ -300,7 +299,7 @@ PopulationEstimate TimeCourse::population(std::span<const CellImages> cells,
   const auto points_with = [&](double near, double far) {
     std::vector<Points> seen;
     for (const CellImages& images : chosen) {
-      goes_on();
+      watch.go_on();
       seen.push_back(refined_points(with_factors(images, middle, near, far)));
     }
     std::erase_if(seen, [](const Points& cell) { return cell.weight.empty(); });

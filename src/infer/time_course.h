@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "numeric/no_value.h"
+#include "store/watch.h"
 #include "table/dynamic_table.h"
 
 namespace rheocyte {
@@ -80,8 +81,7 @@ class TimeCourse {
   /// alike in all cells, too: what the law of the pixels leaves of c_3, at the nearer places and, independently, at the
   /// others.
   static constexpr std::size_t max_cells = 2000;
-  PopulationEstimate population(
-      std::span<const CellImages> cells, const std::function<void()>& goes_on = [] {}) const;
+  PopulationEstimate population(std::span<const CellImages> cells, const Watch& watch = {}) const;
 
  private:
   struct Points;

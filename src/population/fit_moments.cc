@@ -151,7 +151,7 @@ class MomentSearch {
   bool minimise(Part part) {
     double damping = first_damping, loss = loss_of(part, model_.at(found_.parameters));
     for (int k = 0; k < most_steps_of_turn && std::isfinite(loss); ++k) {
-      settings_.goes_on();
+      settings_.watch.go_on();
       const MomentSlopes slopes = model_.slopes(found_.parameters);
       const std::vector<int> free = free_of(part, slopes);
       if (free.empty()) return true;
@@ -208,7 +208,7 @@ class MomentSearch {
   /// Means that are held at a bound are told as little as the others: the bound is the model's, not the cells'. Equal
   /// bounds are what is known of them.
   Equations equations(Held held = Held::without) {
-    settings_.goes_on();
+    settings_.watch.go_on();
     Equations e;
     e.slopes = model_.slopes(found_.parameters);
     e.means = free_of(Part::means, e.slopes);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "store/watch.h"
+
 namespace rheocyte {
 
 /// Of some measures, with the noise of the pictures.
@@ -31,9 +33,9 @@ class MomentModel {
 struct MomentSettings {
   /// How well the model has the means of all events together: errors that more events do not make smaller.
   Eigen::MatrixXd common_covariance;
-  Eigen::VectorXd least, greatest;        ///< within which the parameters are searched; equal: known
-  int most_turns = 20;                    ///< between the two parts
-  std::function<void()> goes_on = [] {};  ///< called from step to step
+  Eigen::VectorXd least, greatest;  ///< within which the parameters are searched; equal: known
+  int most_turns = 20;              ///< between the two parts
+  Watch watch = {};                 ///< asked from step to step
 };
 
 struct MomentFit {

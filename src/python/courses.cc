@@ -44,7 +44,7 @@ py::tuple time_course(const std::vector<std::filesystem::path>& recordings, cons
       };
       courses.add(read_isolated(recordings[i], measuring, watch, work), recordings[i].string(), contraction_um[i]);
     }
-    return courses.report([&watch] { watch.go_on(); });
+    return courses.report(watch);
   });
   return py::make_tuple(table_of(course_columns(), report.rows), report.remarks, report.lines);
 }

@@ -222,7 +222,7 @@ void CourseTable::check_places(const std::vector<CourseCell>& cells) const {
   check_places_seen(cells);
 }
 
-CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
+CourseReport CourseTable::report(const Watch& watch) const {
   std::vector<CourseCell> cells;
   std::vector<CellImages> images;
   for (const Row& row : rows_) {
@@ -233,7 +233,7 @@ CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
   CourseReport report;
   std::size_t seen_again = 0;
   for (const Row& row : rows_) {
-    goes_on();
+    watch.go_on();
     if (seen_um(row.cell.images) >= min_seen_um) report.rows.push_back(told(row, ++seen_again));
   }
   report.remarks = {fmt::format("rheocyte {} time-course", version),
@@ -245,7 +245,7 @@ CourseReport CourseTable::report(const std::function<void()>& goes_on) const {
                   cells.size(), seen_again, min_seen_um, outside_places_, outside_areas_));
   if (are_elsewhere_) report.lines.push_back(section_text(images));
   if (cells.size() >= min_population) {
-    PopulationEstimate& population = report.population = TimeCourse(table_).population(images, goes_on);
+    PopulationEstimate& population = report.population = TimeCourse(table_).population(images, watch);
     const SectionErrors errors = section_errors(section_factor_of(images), unsettled_);
     population.young_modulus_kPa = widened(population.young_modulus_kPa, errors.modulus);
     population.viscosity_Pas = widened(population.viscosity_Pas, errors.viscosity);

@@ -8,6 +8,7 @@
 #include "extract/course_events.h"
 #include "report/column.h"
 #include "shelf/square_section.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -49,9 +50,9 @@ class CourseTable {
   /// UserError as course_cells, and if its flow or viscosity differs from that of the recordings before.
   void add(const CourseEvents& events, const std::string& name, double contraction_um);
 
-  /// Of all recordings; `goes_on` is called from cell to cell. UserError as check_places_seen, and if no cell is seen
+  /// Of all recordings; `watch` is asked from cell to cell. UserError as check_places_seen, and if no cell is seen
   /// again and most events lie where the table has none.
-  CourseReport report(const std::function<void()>& goes_on) const;
+  CourseReport report(const Watch& watch) const;
 
  private:
   struct Row {

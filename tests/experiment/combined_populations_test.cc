@@ -27,7 +27,7 @@ class CellsOfStiffness : public ::testing::Test {
     static_cast<RecordingFacts&>(report) = events;
     report.median_viscosity_mPas = events.flow().viscosity_mPas;
     report.table = "HC-2D-EL-26";
-    CombinedPopulations(options_).fit(events, report, [] {});
+    CombinedPopulations(options_).fit(events, report, {});
     return report;
   }
 

@@ -134,7 +134,7 @@ void expect_within_errors(const CombinedPopulation& found, const CombinedLaw& la
 TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
   const CombinedLaw law = usual_law();
   const auto cells = pictures(law, 600, 3);
-  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
+  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um}, cells, {});
   ASSERT_TRUE(found.fit.is_found);
   expect_within_errors(
       found, law,
@@ -152,9 +152,8 @@ TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
 TEST_F(CombinedPopulationTest, ErrorsOfTheOutlineArePartOfThePictures) {
   const CombinedLaw law = usual_law();
   const OutlineNoise noise{.deviation = 0.1};
-  const CombinedPopulation found =
-      fit_combined_population(moduli_, {.sight = sight_, .pixel_size_um = pixel_um, .outline_noise = noise},
-                              pictures(law, 600, 3, noise), [] {});
+  const CombinedPopulation found = fit_combined_population(
+      moduli_, {.sight = sight_, .pixel_size_um = pixel_um, .outline_noise = noise}, pictures(law, 600, 3, noise), {});
   ASSERT_TRUE(found.fit.is_found);
   expect_within_errors(found, law,
                        {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
@@ -169,7 +168,7 @@ TEST_F(CombinedPopulationTest, AGateOnTheAreaIsPartOfTheModel) {
   const auto log_area = [](const MeasuredCell& cell) { return cell.shape(int(ShapeFeature::area_um2)); };
   const ValueGate gate{.least = log_area(median_of(cells))};
   std::erase_if(cells, [&](const MeasuredCell& cell) { return !gate.pass(log_area(cell)); });
-  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um, gate}, cells, [] {});
+  const CombinedPopulation found = fit_combined_population(moduli_, {sight_, pixel_um, gate}, cells, {});
   ASSERT_TRUE(found.fit.is_found);
   expect_within_errors(found, law,
                        {CombinedParameter::log_radius, CombinedParameter::log_stiffness,
@@ -181,9 +180,9 @@ TEST_F(CombinedPopulationTest, AGateOnTheAreaIsPartOfTheModel) {
 
 TEST_F(CombinedPopulationTest, TheOrderOfTheCellsDoesNotChangeADigit) {
   auto cells = pictures(usual_law(), 60, 5);
-  const CombinedPopulation there = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
+  const CombinedPopulation there = fit_combined_population(moduli_, {sight_, pixel_um}, cells, {});
   std::ranges::reverse(cells);
-  const CombinedPopulation back = fit_combined_population(moduli_, {sight_, pixel_um}, cells, [] {});
+  const CombinedPopulation back = fit_combined_population(moduli_, {sight_, pixel_um}, cells, {});
   ASSERT_TRUE(there.fit.is_found);
   EXPECT_EQ(there.fit.parameters, back.fit.parameters);
   EXPECT_EQ(there.fit.covariance, back.fit.covariance);
@@ -194,7 +193,7 @@ class LawOf : public CombinedPopulationTest {
  protected:
   LawOfCells of(std::span<const MeasuredCell> cells, std::optional<double> tension_Pa = {}) const {
     const SeenPopulation seen{.sight = sight_, .pixel_size_um = pixel_um, .axial_tension_Pa = tension_Pa};
-    const CombinedPopulation found = fit_combined_population(moduli_, seen, cells, [] {});
+    const CombinedPopulation found = fit_combined_population(moduli_, seen, cells, {});
     return found.fit.is_found ? law_of_cells(found, wall_Pa_) : LawOfCells{};
   }
   /// By how much the median stiffness is off, in parts, and whether its 90 % interval holds it.
