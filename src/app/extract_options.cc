@@ -24,6 +24,7 @@ struct SettingOption {
   CLI::Option* operator()(std::optional<double>*) const {
     return add_number_option(command, option, std::string(setting.former_option), description_of(setting), taking());
   }
+  // NOLINTNEXTLINE(readability-non-const-parameter): a pointer to const would be taken for a text below
   CLI::Option* operator()(double* number) const {
     return (*this)(static_cast<std::optional<double>*>(nullptr))->required(std::isnan(*number));
   }

@@ -70,8 +70,8 @@ class ColumnList {
     return *this;
   }
   template <class Value>
-  ColumnList& add_count(std::string name, Value value) {
-    return add({.name = std::move(name), .digits = digits_of_counts}, value);
+  ColumnList& add_count(const std::string& name, Value value) {
+    return add({.name = name, .digits = digits_of_counts}, value);
   }
   /// x and x_error.
   template <class Value, class Error>
