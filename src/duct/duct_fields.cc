@@ -50,7 +50,7 @@ std::vector<FaceInPlane> plane_faces(const DuctSpace& space, const Eigen::Vector
 }  // namespace
 
 ElementState DuctFields::state_of(int e) const {
-  using Liquid = LiquidFields<double, 3>;
+  using OfLiquid = LiquidFields<double, 3>;
   const HexahedronUnknowns& self = space_.elements()[e];
   const auto& nodes = space_.nodes().of_element[e];
   const int n = int(nodes.size());
@@ -61,11 +61,11 @@ ElementState DuctFields::state_of(int e) const {
   if (self.liquid) state.velocity = values_of(self.velocity, unknowns_).reshaped(n, 3);
   state.pressure = at_nodes(space_.reference().pressure.value * values_of(self.pressure, unknowns_));
   if (self.is_empty) return state;
-  const MatrixXd numbers = self.liquid ? numbers_at_points<Liquid>(space_, element_, e, unknowns_)
+  const MatrixXd numbers = self.liquid ? numbers_at_points<OfLiquid>(space_, element_, e, unknowns_)
                                        : numbers_at_points<MapFields<double, 3>>(space_, element_, e, unknowns_);
   for (int q = 0; q < numbers.rows(); ++q) {
     if (self.liquid) {
-      const auto f = fields_at<Liquid>(numbers, q);
+      const auto f = fields_at<OfLiquid>(numbers, q);
       state.gradients.push_back(gradient(PointMap<double, 3>(f.map), f.w, f.w_xi));
     } else {
       const PointMap<double, 3> map(fields_at<MapFields<double, 3>>(numbers, q));

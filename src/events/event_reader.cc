@@ -11,7 +11,7 @@ namespace rheocyte {
 namespace {
 
 const Recording& checked(const Recording& recording, const EventNeeds& needs) {
-  if (needs.outlines == OutlineUse::required) ShapeSource::check_outlines(recording, needs.outlines_for);
+  if (needs.outlines == OutlineUse::needed) ShapeSource::check_outlines(recording, needs.outlines_for);
   return recording;
 }
 

@@ -16,13 +16,13 @@
 
 namespace rheocyte {
 
-enum class OutlineUse { none, if_there, required };
+enum class OutlineUse { none, if_there, needed };
 
 /// What a command needs of the events.
 struct EventNeeds {
   PixelUse pixels = PixelUse::fit;
   OutlineUse outlines = OutlineUse::none;
-  std::string_view outlines_for = {};  ///< completes "..., from which", where they are required
+  std::string_view outlines_for = {};  ///< completes "..., from which", where they are needed
 };
 
 class EventReader {

@@ -35,7 +35,7 @@ class CourseReader {
   CourseReader(const Recording& recording, const MeasuringOptions& options)
       : recording_(checked(recording)),
         events_(recording, options,
-                {.outlines = OutlineUse::required, .outlines_for = "the third mode of each outline is computed"}) {
+                {.outlines = OutlineUse::needed, .outlines_for = "the third mode of each outline is computed"}) {
     result_.has_time = recording.has_scalar("time");
   }
 

@@ -34,7 +34,7 @@ class Fits {
   Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table, int threads, Watch watch)
       : watch_(std::move(watch)),
         threads_(threads),
-        events_(recording, options.measuring, {.outlines = OutlineUse::required, .outlines_for = use_of_outlines}),
+        events_(recording, options.measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
         simulated_exponent_(table.simulated.exponent),
         section_(table.section_of(recording, options.section)),
         is_told_(options.section),
@@ -183,8 +183,7 @@ class Fits {
 
   /// All within the gates, so that nothing depends on their order.
   std::vector<MeasuredCell> cells_for_survey(const Recording& recording, const ModuliOptions& options) const {
-    EventReader events(recording, options.measuring,
-                       {.outlines = OutlineUse::required, .outlines_for = use_of_outlines});
+    EventReader events(recording, options.measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines});
     events.turn(events_.facts().direction);
     std::vector<MeasuredCell> cells;
     for (std::size_t first = 0; first < recording.events(); first += events_of_survey) {

@@ -27,7 +27,7 @@ OutlineErrors::OutlineErrors(const ElongatedTable& table, double width_um, doubl
   if (noise.deviation == 0) return;
   assert(noise.correlation > 0);
   constexpr int first = int(ShapeFeature::first_mode), known = elongated_measures - number_of(ElongatedMeasure::mode_2);
-  Eigen::MatrixXd rows(rendered_cells, terms), bias(rendered_cells, feature_count),
+  Eigen::MatrixXd rows(rendered_cells, term_count), bias(rendered_cells, feature_count),
       covariance(rendered_cells, covariances);
   for (int i = 0; i < rendered_cells; ++i) {
     CellRandom anywhere(1, std::uint64_t(i), Purpose::population);

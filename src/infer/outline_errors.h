@@ -19,8 +19,9 @@ class OutlineErrors {
 
  private:
   /// Of all polynomials of the third degree; those of the second stand first.
-  static constexpr int degree = 3, terms = 20, terms_of_second_degree = 10, covariances = feature_count * feature_count;
-  using Terms = Eigen::Matrix<double, 1, terms>;
+  static constexpr int degree = 3, term_count = 20, terms_of_second_degree = 10,
+                       covariances = feature_count * feature_count;
+  using Terms = Eigen::Matrix<double, 1, term_count>;
   Terms terms_at(double log_area, double mode_2, double mode_3) const;
   /// By which polynomials are multiplied: variances are as the part of the outline that is off alike.
   struct Scales {
@@ -29,7 +30,7 @@ class OutlineErrors {
   Scales scales_at(double log_area) const;
 
   OutlineNoise noise_;
-  Eigen::Matrix<double, terms, feature_count> bias_ = Eigen::Matrix<double, terms, feature_count>::Zero();
+  Eigen::Matrix<double, term_count, feature_count> bias_ = Eigen::Matrix<double, term_count, feature_count>::Zero();
   Eigen::Matrix<double, terms_of_second_degree, covariances> covariance_ =
       Eigen::Matrix<double, terms_of_second_degree, covariances>::Zero();
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/end_loads.h"
+#include "fem/moving_system.h"
 #include "fem/observe.h"
 #include "solve/rigid_start.h"
 

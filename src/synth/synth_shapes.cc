@@ -142,9 +142,9 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   spec.made_of = cells_of(folder.spec().base);
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   if (folder.spec().is_elongated()) {
-    const fs::path file = spec.table / to_path(elongated_file_name(folder.spec().identifier));
-    if (!fs::exists(file, error)) refuse_path(spec.table, "is not finished; let `rheocyte table` go on.");
-    return shapes_of_elongated(spec, file);
+    const fs::path elongated = spec.table / to_path(elongated_file_name(folder.spec().identifier));
+    if (!fs::exists(elongated, error)) refuse_path(spec.table, "is not finished; let `rheocyte table` go on.");
+    return shapes_of_elongated(spec, elongated);
   }
   const bool is_shell = folder.spec().sweeps_cortex();
   if (spec.kind != (is_shell ? CellKind::shell : CellKind::solid))

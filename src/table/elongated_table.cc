@@ -13,6 +13,7 @@
 #include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
 #include "numeric/local_cubic.h"
+#include "shape/outline_shape.h"
 #include "table/origin_record.h"
 
 namespace rheocyte {

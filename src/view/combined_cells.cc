@@ -41,7 +41,7 @@ Json numbers_of(const ModuliEstimate& e) {
 
 CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
     : table_(table),
-      events_(recording, measuring, {.outlines = OutlineUse::required, .outlines_for = use_of_outlines}),
+      events_(recording, measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
       moduli_(events_.settings(), {}, table, table.section_of(recording, {})) {
   events_.turn_downstream(table.sign_of_asymmetry());
 }
