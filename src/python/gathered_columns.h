@@ -25,7 +25,7 @@ struct GatheredEvents {
   }
 
   /// A pair: SharedColumns::arrays, and `said` with the rest.
-  pybind11::tuple to_python(const SharedColumns& memory, pybind11::dict said = {}) const {
+  pybind11::tuple to_python(const SharedColumns& memory, const pybind11::dict& said = {}) const {
     said["settings"] = settings;
     said["warnings"] = warnings;
     said["settings_hash"] = settings_hash;
