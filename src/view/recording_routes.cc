@@ -102,7 +102,9 @@ class RecordingAnswers {
   }
 
   Answer picture(const Request& request, const std::string& feature) const {
-    Json pictures = items_.recording(request.number("item")).description.value("pictures", Json({feature}));
+    // Of a recording that is still being described nothing is known: who reads the picture says whether there is one.
+    const Json description = items_.recording(request.number("item")).description;
+    const Json pictures = description.is_object() ? description.value("pictures", Json({feature})) : Json({feature});
     if (std::ranges::find(pictures, Json(feature)) == pictures.end())
       throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
     const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
