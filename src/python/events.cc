@@ -65,7 +65,7 @@ py::tuple extract(const std::filesystem::path& file, const ExtractOptions& optio
   said["shapes"] = shape_lines(events.summary.shapes);
   said["table"] = events.summary.table;
   said["recommended"] = python_of(recommended_json(events.summary));
-  return events.gathered.to_python(memory, std::move(said));
+  return events.gathered.to_python(memory, said);
 }
 
 }  // namespace
