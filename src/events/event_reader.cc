@@ -40,6 +40,11 @@ RecordingFacts facts_of(const Recording& recording, const ExtractSettings& setti
   return facts;
 }
 
+double at_1_mPas(ChannelFlow flow) {
+  flow.viscosity_mPas = 1;
+  return reynolds_number(buffer_density_kg_per_m3, flow);
+}
+
 }  // namespace
 
 RecordingLabels labels_of(const Metadata& metadata) {
@@ -54,7 +59,8 @@ EventReader::EventReader(const Recording& recording, const MeasuringOptions& opt
       shapes_(recording, settings_.pixel_size_um),
       features_(recording, shapes_),
       gates_(options.gates),
-      facts_(facts_of(recording, settings_, shapes_, gates_)) {
+      facts_(facts_of(recording, settings_, shapes_, gates_)),
+      reynolds_at_1_mPas_(at_1_mPas(settings_.conditions.flow)) {
   if (needs.outlines != OutlineUse::none && ShapeSource::has_outlines(recording))
     outlines_.emplace(recording, settings_.pixel_size_um);
   gates_.check(features_);
@@ -72,26 +78,16 @@ ShapeVector EventReader::shape(std::size_t event) {
   return shape;
 }
 
-bool EventReader::is_cut(std::size_t event) {
-  const bool cut = outlines_->is_cut(event);
-  facts_.cut += cut;
-  return cut;
-}
-
 void EventReader::read(std::size_t first, std::size_t count) {
   viscosity_mPas_.resize(count);
   facts_.outside_temperature += settings_.viscosities(recording_, first, viscosity_mPas_);
   inside_.resize(count);
   gates_.apply(features_, first, inside_);
   facts_.gated += std::size_t(std::ranges::count(inside_, char{0}));
-  ChannelFlow flow = settings_.conditions.flow;
-  flow.viscosity_mPas = 1;
-  const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
   for (std::size_t i = 0; i < count; ++i) {
-    const double reynolds = at_1_mPas / viscosity_mPas_[i];
-    if (!inside_[i] || !(reynolds > max_reynolds_number)) continue;
+    if (!inside_[i] || !(reynolds(i) > max_reynolds_number)) continue;
     ++facts_.inertial;
-    facts_.greatest_reynolds_number = std::max(facts_.greatest_reynolds_number, reynolds);
+    facts_.greatest_reynolds_number = std::max(facts_.greatest_reynolds_number, reynolds(i));
   }
 }
 

@@ -39,12 +39,13 @@ class EventReader {
   /// Stored areas and deformations, or what stands in for them.
   ShapeSource& stored_shapes() { return shapes_; }
   const ShapeSource& stored_shapes() const { return shapes_; }
-  EventFeatures& features() { return features_; }
 
   /// Viscosities and gates of events [first, first + count). UserError if the data are damaged.
   void read(std::size_t first, std::size_t count);
   /// Of the events read last (mPa s); NaN where it is unknown.
   std::span<const double> viscosity_mPas() const { return viscosity_mPas_; }
+  /// Of one of the events read last; NaN without a viscosity.
+  double reynolds(std::size_t i) const { return reynolds_at_1_mPas_ / viscosity_mPas_[i]; }
   /// Whether one of the events read last, counted from the first of them, is within the gates.
   bool is_inside(std::size_t i) const { return inside_[i] != 0; }
 
@@ -57,9 +58,9 @@ class EventReader {
   void turn(int direction) { facts_.direction = direction; }
   /// Of any event; NaN where there is no cell, or no whole one. UserError if the data are damaged.
   ShapeVector shape(std::size_t event);
-  /// Whether the edge of the picture cuts the cell off; these are counted. UserError if the data are damaged.
-  bool is_cut(std::size_t event);
-  /// Counted by whoever reads the outlines otherwise.
+  /// Whether the edge of the picture cuts the cell off. UserError if the data are damaged.
+  bool is_cut(std::size_t event) { return outlines_->is_cut(event); }
+  /// So many events are left out for that reason.
   void count_cut(std::size_t events) { facts_.cut += events; }
 
   /// Of the recording and the events read so far.
@@ -73,6 +74,7 @@ class EventReader {
   Gates gates_;
   std::optional<EventOutlines> outlines_;
   RecordingFacts facts_;
+  double reynolds_at_1_mPas_;
   std::vector<double> viscosity_mPas_;
   std::vector<char> inside_;
 };

@@ -87,7 +87,7 @@ class PopulationReader {
     for (std::size_t i = 0; i < count; ++i) {
       if (!events_.is_inside(i)) continue;
       const ShapeVector shape = events_.shape(first + i);
-      if (!shape.allFinite()) static_cast<void>(events_.is_cut(first + i));
+      if (!shape.allFinite()) events_.count_cut(events_.is_cut(first + i));
       Seen seen;
       seen_at(seen, SeenMeasure::area_um2) = std::exp(shape(int(ShapeFeature::area_um2)));
       seen_at(seen, SeenMeasure::deformation) = shape(int(ShapeFeature::deformation));

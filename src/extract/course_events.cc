@@ -48,7 +48,7 @@ class CourseReader {
       if (!events_.is_inside(i) || !std::isfinite(x[i]) || !std::isfinite(viscosity[i])) continue;
       CourseEvent event{double(first + i + 1), x[i], y[i], time[i]};
       if (!measure(events_.shape(first + i), event)) {
-        static_cast<void>(events_.is_cut(first + i));
+        events_.count_cut(events_.is_cut(first + i));
         continue;
       }
       result_.events.push_back(event);

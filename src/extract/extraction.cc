@@ -274,12 +274,9 @@ void Extraction::collect() {
 
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
 void Extraction::add_inertia_error(const Moduli& moduli) {
-  ChannelFlow flow = conditions().flow;
-  flow.viscosity_mPas = 1;
-  const double at_1_mPas = reynolds_number(buffer_density_kg_per_m3, flow);
   for (std::size_t i = 0; i < moduli.states.size(); ++i) {
     if (!has_modulus(moduli.states[i])) continue;
-    const double reynolds = at_1_mPas / events_.viscosity_mPas()[i];
+    const double reynolds = events_.reynolds(i);
     moduli.standard_error_kPa[i] =
         std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.kPa[i]);
     if (reynolds <= max_reynolds_number) continue;

@@ -113,8 +113,10 @@ class Fits {
         });
     fits.run(threads_);
     for (std::size_t i = 0; i < count; ++i) {
-      if (estimates_[i].status == ModuliStatus::no_data && events_.is_cut(first + i))
+      if (estimates_[i].status == ModuliStatus::no_data && events_.is_cut(first + i)) {
         estimates_[i].status = ModuliStatus::cut;
+        events_.count_cut(1);
+      }
       tally_.take(estimates_[i]);
       if (axial_.is_of_elongated_cells && has_cell(estimates_[i])) {
         const CellCoordinates& cell = estimates_[i].cell;

@@ -68,13 +68,13 @@ std::string summary_table(std::span<const SummaryLine> lines, std::string_view e
   std::map<std::string, Row> by_recording;
   for (auto& row : rows_in(earlier)) by_recording[row["recording"]] = std::move(row);
   for (const auto& line : lines) by_recording[table_cell(line.recording.string())] = row_of(line);
-  std::string text = "recording";
-  for (const auto& column : summary_columns()) text.append("\t").append(column.name);
+  std::string text = "recording\t" + header_text(summary_columns());
   for (auto& [recording, row] : by_recording) {
-    text.append("\n").append(recording);
+    text.append(recording);
     for (const auto& column : summary_columns()) text.append("\t").append(table_cell(row[column.name]));
+    text.append("\n");
   }
-  return text + "\n";
+  return text;
 }
 
 void check_place_of_summary(const fs::path& file) { check_replaceable(file, mark_of_summary(file), Foreign::keep); }
