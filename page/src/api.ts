@@ -267,7 +267,7 @@ export interface PopulationRecording extends PopulationRow {
 
 /** What the page reads of population.json; there is more. */
 export interface Population {
-  /** what the model tells of cells, the best one first; `median` is the column of the median */
+  /** what the model determines of the cells, the most accurate first; `median` is the column of the median */
   quantities: { quantity: string; median: string; symbol: string; unit: string }[];
   conditions: (PopulationRow & { condition: string })[];
   comparisons: (PopulationRow & { control: string; treated: string; quantity: string; ratio: number; p: number | null })[];

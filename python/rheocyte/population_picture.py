@@ -289,8 +289,8 @@ def draw_legend(figure, story):
 def how_known(story):
     """What the intervals of the conditions come from."""
     first = (story.record["quantities"] or [STIFFNESS])[0]["quantity"]
-    told = (each.get(f"{first}_interval_by") for each in story.conditions)
-    by_recordings = {each == "scatter of the recordings" for each in told if each}
+    intervals_by = (each.get(f"{first}_interval_by") for each in story.conditions)
+    by_recordings = {each == "scatter of the recordings" for each in intervals_by if each}
     return {(True,): "its recordings", (False,): "sampling alone"}.get(tuple(by_recordings), "its recordings (one: by sampling)")
 
 
