@@ -55,7 +55,7 @@ int run(const TimeCourseOptions& options) {
     for (const std::string& warning : remarks(events)) tell(fmt::format("{}: {}", name, warning));
     courses.add(events, name, contraction_um);
   }
-  const CourseReport report = courses.report(until_signal([](double) {}));
+  const CourseReport report = courses.report(until_signal());
   replace_own_file(options.file, course_text(report), mark_of_courses, Foreign::keep);
   if (!options.batch.quiet)
     for (const std::string& line : report.lines) print(line + "\n");

@@ -1,10 +1,9 @@
 #include "report/population_companion.h"
 
-#include <fmt/format.h>
-
 #include <span>
 #include <vector>
 
+#include "case/joined.h"
 #include "events/event_pass.h"
 #include "experiment/recording_report.h"
 #include "report/companion_writer.h"
@@ -46,7 +45,7 @@ std::string write_population_companion(const std::filesystem::path& scratch, con
     companion.write(first, block);
   });
   companion.close();
-  return fmt::format("{}", fmt::join(companion.missing(), ", "));
+  return joined(companion.missing(), ", ");
 }
 
 }  // namespace rheocyte

@@ -18,7 +18,7 @@ struct Watch {
 };
 
 /// Whose end SIGINT, SIGTERM and SIGHUP want.
-inline Watch until_signal(TellProgress progress) {
+inline Watch until_signal(TellProgress progress = [](double) {}) {
   return {std::move(progress), [] { return stop_wanted().load(); }};
 }
 
