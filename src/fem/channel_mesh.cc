@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "case/problem.h"
 #include "shape/curve.h"
@@ -34,6 +35,14 @@ std::vector<double> like(const std::vector<double>& breaks, int n) {
   }
   return between;
 }
+
+}  // namespace
+
+SurfaceBreaks like(const SurfaceBreaks& breaks, const SurfaceBreaks& numbers) {
+  return {like(breaks.front, int(numbers.front.size()) - 1), like(breaks.top, int(numbers.top.size()) - 1)};
+}
+
+namespace {
 
 std::vector<double> front_breaks(int n, Spacing spacing) {
   return spacing == Spacing::even ? uniform(n) : like({0, 0.35, 1}, n);
@@ -82,21 +91,25 @@ std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
   return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
 }
 
-ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& n, Spacing spacing)
-    : geometry_(geometry), front_(front_breaks(n.front, spacing)), top_(top_breaks(n.top, spacing)) {
+SurfaceBreaks surface_breaks(const Subdivision& n, Spacing spacing) {
+  return {front_breaks(n.front, spacing), top_breaks(n.top, spacing)};
+}
+
+ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& n, SurfaceBreaks breaks)
+    : geometry_(geometry), breaks_(std::move(breaks)) {
   const auto ring = uniform(n.ring);
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
   const auto layers = graded(layer_count, std::pow(2.0, layer_count));
   const auto axial = axial_breaks(geometry, n.axial);
-  add_block(Block::core, front_, top_);
-  add_block(Block::ring_front, ring, front_);
-  add_block(Block::ring_top, ring, top_);
-  add_block(Block::ring_rear, ring, front_);
-  add_block(Block::front, layers, front_);
-  add_block(Block::top, layers, top_);
-  add_block(Block::rear, layers, front_);
-  add_block(Block::downstream, axial, front_);
-  add_block(Block::upstream, axial, front_);
+  add_block(Block::core, breaks_.front, breaks_.top);
+  add_block(Block::ring_front, ring, breaks_.front);
+  add_block(Block::ring_top, ring, breaks_.top);
+  add_block(Block::ring_rear, ring, breaks_.front);
+  add_block(Block::front, layers, breaks_.front);
+  add_block(Block::top, layers, breaks_.top);
+  add_block(Block::rear, layers, breaks_.front);
+  add_block(Block::downstream, axial, breaks_.front);
+  add_block(Block::upstream, axial, breaks_.front);
 }
 
 void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along) {
@@ -108,9 +121,9 @@ void ChannelMesh::add_block(Block block, const std::vector<double>& outward, con
 }
 
 std::vector<double> ChannelMesh::surface_places() const {
-  std::vector<double> places = front_;
-  for (std::size_t i = 1; i < top_.size(); ++i) places.push_back(1 + 2 * top_[i]);
-  for (std::size_t i = front_.size() - 1; i-- > 0;) places.push_back(4 - front_[i]);
+  std::vector<double> places = breaks_.front;
+  for (std::size_t i = 1; i < breaks_.top.size(); ++i) places.push_back(1 + 2 * breaks_.top[i]);
+  for (std::size_t i = breaks_.front.size() - 1; i-- > 0;) places.push_back(4 - breaks_.front[i]);
   return places;
 }
 

@@ -42,12 +42,24 @@ struct MeshElement {
   std::array<double, 2> parameters(double xi1, double xi2) const;
 };
 
+/// Between the elements along the surface of front and top, as parts of their angles, 0 and 1 included; those of the
+/// rear are the front's.
+struct SurfaceBreaks {
+  std::vector<double> front, top;
+};
+SurfaceBreaks surface_breaks(const Subdivision&, Spacing);
+/// Those of another mesh, or such as lie between them, as many as given.
+SurfaceBreaks like(const SurfaceBreaks&, const SurfaceBreaks& numbers);
+
 class ChannelMesh {
  public:
-  ChannelMesh(const ChannelGeometry&, const Subdivision&, Spacing = Spacing::even);
+  ChannelMesh(const ChannelGeometry& geometry, const Subdivision& subdivision, Spacing spacing = Spacing::even)
+      : ChannelMesh(geometry, subdivision, surface_breaks(subdivision, spacing)) {}
+  ChannelMesh(const ChannelGeometry&, const Subdivision&, SurfaceBreaks);
 
   const ChannelGeometry& geometry() const { return geometry_; }
   const std::vector<MeshElement>& elements() const { return elements_; }
+  const SurfaceBreaks& breaks() const { return breaks_; }
   /// Between the edges on the surface, both poles included: the front from 0 to 1, the top to 3, the rear to 4, in
   /// proportion to the angles of the undeformed cell.
   std::vector<double> surface_places() const;
@@ -58,7 +70,7 @@ class ChannelMesh {
   void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
 
   ChannelGeometry geometry_;
-  std::vector<double> front_, top_;  ///< breaks along the sectors, those of the rear being the front's
+  SurfaceBreaks breaks_;
   std::vector<MeshElement> elements_;
 };
 

@@ -155,6 +155,16 @@ void Discretisation::move_nodes(const VectorXd& outward) {
   }
 }
 
+void Discretisation::set_points(const std::vector<Point>& points) {
+  points_ = straight_points_ = points;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!elements_[e].liquid) continue;
+    std::vector<PointMap<double, 2>> maps = undeformed_maps(int(e));
+    for (std::size_t q = 0; q < maps.size(); ++q) maps[q].det = elements_[e].undeformed[q].det;  // for scale alone
+    elements_[e].undeformed = std::move(maps);
+  }
+}
+
 void Discretisation::find_edges() {
   const auto collect = [this](Block block, int side, bool reversed) {
     std::vector<BoundaryEdge> edges;

@@ -87,6 +87,8 @@ class Discretisation {
   VectorXd wall_motion(const std::function<double(double)>& wall, const VectorXd& unknowns) const;
   /// Moves the nodes from their places in a straight channel, and adapts the flow through the inlet.
   void move_nodes(const VectorXd& outward);
+  /// Where the liquid's nodes are in a straight channel round the undeformed cell, from where they follow their spokes.
+  void set_points(const std::vector<Point>&);
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }

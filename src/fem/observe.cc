@@ -239,4 +239,31 @@ VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Di
   return target;
 }
 
+std::vector<Point> transferred_points(const Discretisation& from, const Discretisation& to) {
+  const VectorXd &s = from.reference().nodes_1d, &t = to.reference().nodes_1d;
+  const int n = int(t.size()), m = int(s.size());
+  const double scale = to.mesh().geometry().radius() / from.mesh().geometry().radius();
+  std::vector<MatrixXd> moved;
+  for (int f = 0; f < int(from.elements().size()); ++f) {
+    const auto& nodes = from.nodes().of_element[f];
+    MatrixXd& of_nodes = moved.emplace_back(m * m, 2);
+    for (int k = 0; k < m * m; ++k) {
+      const Point at_first = from.mesh().elements()[f].map(from.mesh().geometry(), s(k % m), s(k / m));
+      of_nodes.row(k) = scale * (from.node_points()[nodes[k]] - at_first).transpose();
+    }
+  }
+  std::vector<Point> points = to.node_points();
+  for (int e = 0; e < int(to.elements().size()); ++e) {
+    if (!to.elements()[e].liquid) continue;
+    const MeshElement& self = to.mesh().elements()[e];
+    locate(from.mesh(), self, t, [&](int i, int j, double xi1, double xi2, int f) {
+      const int node = to.nodes().of_element[e][j * n + i];
+      if (to.displacement(node, 0) >= 0) return;
+      points[node] = self.map(to.mesh().geometry(), t(i), t(j));
+      for (int c = 0; c < 2; ++c) points[node](c) += from.reference().interpolate(moved[f].col(c), Point(xi1, xi2));
+    });
+  }
+  return points;
+}
+
 }  // namespace rheocyte

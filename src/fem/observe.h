@@ -58,6 +58,10 @@ void scale_displacement(const Discretisation&, double factor, VectorXd& unknowns
 /// The same fields in the unknowns of another degree on the same mesh.
 VectorXd transfer(const Discretisation& from, const VectorXd& unknowns, const Discretisation& to);
 
+/// Points for Discretisation::set_points: the liquid's nodes are moved as those of another mesh, in proportion to the
+/// cells' radii.
+std::vector<Point> transferred_points(const Discretisation& from, const Discretisation& to);
+
 /// Current point of a node of the cell (its undeformed point plus displacement); undeformed point elsewhere.
 Point current_point(const Discretisation&, const VectorXd& unknowns, int node);
 

@@ -28,6 +28,7 @@ constexpr double min_step = 0.01;
 /// A state of the way at its resolution, the first that is none of a scout.
 struct Milestone {
   double compliance, height;  ///< as SamplingWay has it, but not relative
+  std::shared_ptr<Discrete> discrete;
   VectorXd unknowns;
 };
 
@@ -95,7 +96,7 @@ class BranchFollower {
     if (discrete.stability_margin(here, state.unknowns) < wanted_.least_margin) return false;
     const double d = discrete.deformation(here, state.unknowns);
     if (d > 1.3 * fraction_beyond * wanted_.max_deformation) return false;  // rather a nearer one
-    way_.push_back({state.parameter, height_of(d, state.parameter), state.unknowns});
+    way_.push_back({state.parameter, height_of(d, state.parameter), discrete.shared_from_this(), state.unknowns});
     last_deformation_ = d;
     return true;
   }
@@ -130,7 +131,7 @@ class BranchFollower {
   std::optional<StationaryState> state_of(double height) {
     const Milestone guess = guess_of(height);
     branch_.take_statistics();
-    ResolvedState state = branch_.solved(first_.discrete, guess.compliance, guess.unknowns, branch_.geometry().across);
+    ResolvedState state = branch_.solved(guess.discrete, guess.compliance, guess.unknowns, branch_.geometry().across);
     Ladder ladder{branch_.geometry().errors};
     StationaryState result;
     if (state.status == Status::converged) result.outcome.status = branch_.climb(state, ladder);
@@ -152,15 +153,19 @@ class BranchFollower {
     if (beyond == way_.end()) return way_.back();
     if (beyond == way_.begin()) {
       // d goes with the square of the compliance, displacements with the compliance.
-      Milestone guess{way_.front().compliance * height / way_.front().height, height, way_.front().unknowns};
-      first_.discrete->system().scale_displacement(guess.compliance / way_.front().compliance, guess.unknowns);
+      Milestone guess = way_.front();
+      const double fraction = height / guess.height;
+      guess.compliance *= fraction;
+      guess.height = height;
+      guess.discrete->system().scale_displacement(fraction, guess.unknowns);
       return guess;
     }
     const Milestone &a = *(beyond - 1), &b = *beyond;
     const double fraction = std::log(height / a.height) / std::log(b.height / a.height);
     const double compliance = a.compliance * std::pow(b.compliance / a.compliance, fraction);
     const double way = (compliance - a.compliance) / (b.compliance - a.compliance);
-    return {compliance, height, (1 - way) * a.unknowns + way * b.unknowns};
+    const VectorXd before = a.discrete == b.discrete ? a.unknowns : b.discrete->transfer_from(*a.discrete, a.unknowns);
+    return {compliance, height, b.discrete, (1 - way) * before + way * b.unknowns};
   }
 
   const SamplingWay& wanted_;

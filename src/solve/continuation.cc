@@ -122,6 +122,9 @@ double limited_step(const Path& path, double parameter, double h) {
   return h > 0.7 * remaining ? 0.5 * remaining : h;
 }
 
+/// Of BranchState::aim.
+constexpr double max_aim = 0.01, min_aim = 1e-4;
+
 /// Whether Newton found a state, near its prediction.
 Status judge(const NewtonReport& newton, const NonlinearSystem& system, const VectorXd& guess, const VectorXd& found,
              const ContinuationOptions& options) {
@@ -146,7 +149,8 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
     const NonlinearSystem& system = path.system(state.parameter);
     return std::max(system.largest_displacement(state.tangent) / system.cell_radius(), 1e-12);
   };
-  double h = options.displacement_per_step / displacement_rate(last);
+  double h = options.displacement_per_step / displacement_rate(last), aim = last.aim;
+  if (last.step > 0) h = std::min(h, last.step);
   while (last.parameter < path.end) {
     h = limited_step(path, last.parameter, h);
     BranchState next;
@@ -162,6 +166,8 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
     if (status == Status::converged && options.accept && !options.accept(system, next))
       status = Status::surface_unstable;
     if (status != Status::converged) {
+      if (newton_report.first_correction > 0)
+        aim = std::clamp(0.5 * newton_report.first_correction / system.cell_radius(), min_aim, aim);
       h /= 2;
       if (h < options.min_step * path.unit(last.parameter)) return report.status = status, report;
       continue;
@@ -171,10 +177,14 @@ ContinuationReport continue_branch(const Path& path, const ContinuationOptions& 
     before = std::move(last);
     last = std::move(next);
     ++report.steps;
-    // With an exact tangent the predictor's error grows like h^3: aim at a first correction of 1 % of the radius.
+    // With an exact tangent the predictor's error grows like h^3.
     const double radius = system.cell_radius();
-    const double growth = std::cbrt(0.01 * radius / std::max(newton_report.first_correction, 1e-12));
+    const double growth = std::cbrt(aim * radius / std::max(newton_report.first_correction, 1e-12));
+    aim = std::min(1.2 * aim, max_aim);
     h = std::min(h * std::clamp(growth, 0.4, 2.5), 2 * options.displacement_per_step / displacement_rate(last));
+    last.step = h;
+    last.aim = aim;
+    if (options.pause && options.pause(last)) return report;
   }
   return report;
 }

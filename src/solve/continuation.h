@@ -14,6 +14,9 @@ struct BranchState {
   VectorXd unknowns;
   VectorXd tangent;  ///< d(unknowns)/d(parameter); may be empty where a branch is entered
   int newton_iterations = 0;
+  /// With which a branch goes on from here: the step of the parameter, 0 if it is not known, and the first correction
+  /// of Newton's method, in the cell's radius, that steps aim at: less after one that failed.
+  double step = 0, aim = 0.01;
 };
 
 struct ContinuationOptions {
@@ -25,6 +28,8 @@ struct ContinuationOptions {
   double min_step = 2e-3;  ///< of the parameter, relative to its distance from the path's origin (or to 1)
   /// Called with each converged state; returning false refuses it as unstable, and the step is halved.
   std::function<bool(const NonlinearSystem&, const BranchState&)> accept;
+  /// Whether the way is to end at an accepted state, as converged.
+  std::function<bool(const BranchState&)> pause;
 };
 
 struct ContinuationReport {

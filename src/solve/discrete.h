@@ -1,5 +1,7 @@
 // A stationary problem at one resolution, in whatever dimension: its system, and what is read off its unknowns.
 #pragma once
+#include <memory>
+
 #include "case/problem.h"
 #include "fem/nonlinear_system.h"
 #include "shape/measures.h"
@@ -10,7 +12,7 @@ namespace rheocyte {
 
 /// Mesh, spaces and system, which refer to each other and stay together. The problems that are given are those at hand:
 /// with the media of the unknowns.
-class Discrete {
+class Discrete : public std::enable_shared_from_this<Discrete> {
  public:
   explicit Discrete(const Resolution& resolution) : resolution_(resolution) {}
   virtual ~Discrete() = default;
@@ -38,6 +40,15 @@ class Discrete {
 
   /// The same fields in the unknowns of this resolution, from another one of the same geometry.
   virtual VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const = 0;
+  /// At the same resolution with a mesh of the liquid that fits round the cell of a state, on the same elements or on
+  /// such as are even on its surface; nothing if that is hardly better than this one.
+  enum class Elements { same, even };
+  virtual std::shared_ptr<Discrete> fitted(const VectorXd& /*unknowns*/, Elements) const { return nullptr; }
+  /// At this resolution with a mesh that follows the cell as that of another one of the same geometry; nothing if that
+  /// has not been fitted.
+  virtual std::shared_ptr<Discrete> fitted_as(const Discrete& /*other*/) const { return nullptr; }
+  /// Whether the mesh of the liquid has become much worse than it was.
+  virtual bool is_worn(const VectorXd& /*unknowns*/) const { return false; }
   /// Becomes that of another problem whose unknowns mean the same (Geometry::is_alike). The factors stay, for chord
   /// steps there.
   virtual void move_to(const Problem&) = 0;

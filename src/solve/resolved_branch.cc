@@ -52,8 +52,9 @@ bool ResolvedBranch::is_wrinkled(const ResolvedState& state) const {
 
 /// Whether the surface is so near its limit that no mesh can hold the state.
 bool ResolvedBranch::is_nearly_unstable(const ResolvedState& state) const {
-  const auto& [parameter, unknowns, tangent, iterations] = state.branch;
-  return unknowns.size() > 0 && state.discrete->stability_margin(problem_at(parameter), unknowns) < small_margin;
+  const VectorXd& unknowns = state.branch.unknowns;
+  return unknowns.size() > 0 &&
+         state.discrete->stability_margin(problem_at(state.branch.parameter), unknowns) < small_margin;
 }
 
 void ResolvedBranch::report(Discrete& discrete, const BranchState& state, double deformation) {
@@ -65,6 +66,7 @@ ResolvedBranch::Accept ResolvedBranch::smooth() {
   return [this](Discrete& discrete, const BranchState& state) {
     const Problem here = problem_at(state.parameter);
     if (discrete.is_wrinkled(here, state.unknowns)) return false;
+    trail_.push_back({.status = Status::converged, .discrete = discrete.shared_from_this(), .branch = state});
     // A way that begins anew need not show again what a coarser one showed.
     if (report_ && state.parameter > seen_) report(discrete, state, discrete.deformation(here, state.unknowns));
     return true;
@@ -96,6 +98,9 @@ void ResolvedBranch::take(const ContinuationReport& report, ResolvedState& state
   statistics_.continuation_steps += report.steps;
 }
 
+/// Where a state is carried to another resolution: so far back from the last one, and farther.
+constexpr double steps_back[] = {1, 0.92, 0.8};
+
 ResolvedState ResolvedBranch::start(const Resolution& resolution, const ContinuationOptions& options,
                                     const Accept& accept) {
   ResolvedState state;
@@ -107,10 +112,42 @@ ResolvedState ResolvedBranch::start(const Resolution& resolution, const Continua
 
 void ResolvedBranch::advance(ResolvedState& state, double compliance, const ContinuationOptions& options,
                              const Accept& accept) {
-  const Metered metered(*this, state.discrete->system());
-  Path path = stiffness_path(state.discrete->system(), media_);
-  path.end = compliance;
-  take(continue_branch(path, with(options, accept, *state.discrete), state.branch), state);
+  const auto go = [&](bool pauses) {
+    Discrete& discrete = *state.discrete;
+    const Metered metered(*this, discrete.system());
+    Path path = stiffness_path(discrete.system(), media_);
+    path.end = compliance;
+    ContinuationOptions here = with(options, accept, discrete);
+    if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
+    take(continue_branch(path, here, state.branch), state);
+  };
+  double fitted_at = -1;
+  go(true);
+  while (state.branch.parameter < compliance) {
+    if (state.status == Status::stopped || state.status == Status::surface_unstable) return;
+    const bool has_paused = state.status == Status::converged;
+    const bool is_fitted =
+        std::exchange(fitted_at, state.branch.parameter) < state.branch.parameter && fit(state, options.newton);
+    if (!is_fitted && !has_paused) return;
+    go(is_fitted);
+  }
+}
+
+bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
+  options.iteration_limit = geometry_.across.iteration_limit;  // the mesh changes as from one way to the next
+  const auto& [parameter, unknowns, tangent, iterations, step, aim] = state.branch;
+  for (const auto elements : {Discrete::Elements::even, Discrete::Elements::same}) {
+    const auto discrete = state.discrete->fitted(unknowns, elements);
+    if (!discrete) continue;
+    ResolvedState found = solved(discrete, parameter, discrete->transfer_from(*state.discrete, unknowns), options);
+    if (found.status == Status::stopped) return state.status = found.status, false;
+    if (found.status != Status::converged || is_wrinkled(found)) continue;
+    found.branch.step = step;
+    found.branch.aim = aim;
+    state = std::move(found);
+    return true;
+  }
+  return false;
 }
 
 ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double compliance, VectorXd guess,
@@ -127,22 +164,35 @@ ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double 
 
 ResolvedState ResolvedBranch::carried(const ResolvedState& from, const Resolution& resolution,
                                       const NewtonOptions& options) {
-  const auto discrete = discretise(resolution);
-  return solved(discrete, from.branch.parameter, discrete->transfer_from(*from.discrete, from.branch.unknowns),
-                options);
+  auto discrete = discretise(resolution);
+  if (const auto fitted = discrete->fitted_as(*from.discrete)) discrete = fitted;
+  VectorXd guess = discrete->transfer_from(*from.discrete, from.branch.unknowns);
+  if (discrete->is_worn(guess))
+    if (const auto fitted = discrete->fitted(guess, Discrete::Elements::even)) {
+      guess = fitted->transfer_from(*discrete, guess);
+      discrete = fitted;
+    }
+  return solved(discrete, from.branch.parameter, std::move(guess), options);
 }
 
-/// The last state at another resolution, or the first state of the branch there if the last one does not hold: Newton
-/// leaves it, or the finer surface is seen to be wrinkled. In the latter case it is forgotten (its compliance set to
-/// 0).
+/// A state at another resolution: the last one, or one before it that Newton does not leave there; or the first one of
+/// the branch if there is none such, or the finer surface is seen to be wrinkled. In the latter case the last one is
+/// forgotten (its compliance set to 0).
 ResolvedState ResolvedBranch::enter(ResolvedState& from, const Resolution& resolution,
                                     const ContinuationOptions& options, const NewtonOptions& across) {
   if (!from.discrete) return start(resolution, options, smooth());
-  ResolvedState state = carried(from, resolution, across);
-  if (state.status == Status::stopped) return state;
-  if (state.status == Status::converged) {
-    if (!is_wrinkled(state)) return state;
+  for (const double fraction : steps_back) {
+    const double farthest = fraction * from.branch.parameter;
+    const auto before = std::find_if(trail_.rbegin(), trail_.rend(), [&](const ResolvedState& passed) {
+      return passed.discrete->resolution() == from.discrete->resolution() && passed.branch.parameter <= farthest;
+    });
+    if (fraction < 1 && before == trail_.rend()) break;
+    ResolvedState state = carried(fraction < 1 ? *before : from, resolution, across);
+    if (state.status == Status::stopped) return state;
+    if (state.status != Status::converged) continue;
+    if (!is_wrinkled(state)) return trail_.push_back(state), state;
     from.branch.parameter = 0;
+    break;
   }
   return start(resolution, options, smooth());
 }

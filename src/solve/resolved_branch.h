@@ -64,6 +64,8 @@ class ResolvedBranch {
   ResolvedState carried(const ResolvedState& from, const Resolution&, const NewtonOptions&);
   ResolvedState enter(ResolvedState& from, const Resolution&, const ContinuationOptions&, const NewtonOptions& across);
   void take(const ContinuationReport&, ResolvedState&);
+  /// Fits the mesh to the state; false if that does not help.
+  bool fit(ResolvedState&, NewtonOptions);
   bool is_wrinkled(const ResolvedState&) const;
   bool is_nearly_unstable(const ResolvedState&) const;
   void add(const ResolvedState&, Ladder&) const;
@@ -78,6 +80,7 @@ class ResolvedBranch {
   WorkLimits limits_;
   SolveStatistics statistics_;
   std::vector<std::shared_ptr<Discrete>> made_;
+  std::vector<ResolvedState> trail_;  ///< that the way has passed
   bool keeps_factors_ = false;
   double seen_ = 0;  ///< the greatest compliance that was reported
 };

@@ -23,13 +23,20 @@ bool have_same_mesh_and_inflow(const Problem& a, const Problem& b) {
   return has_same_channel(a, b) && has_same_mesh(a, b) && liquid == b.liquid;
 }
 
+/// Of another problem, in which the unknowns mean the same.
+std::shared_ptr<Discrete> made_like(const Discrete& discrete, const Geometry& geometry, const Problem& problem) {
+  auto made = geometry.make(problem, discrete.resolution());
+  if (auto fitted = made->fitted_as(discrete)) return fitted;
+  return made;
+}
+
 /// A problem's equations in the unknowns of a state.
 class Equations {
  public:
   Equations(const Geometry& geometry, const Problem& base, const ResolvedState& state, const Problem& problem)
       : media_(problem),
         discrete_(have_same_mesh_and_inflow(base, problem) ? state.discrete
-                                                           : geometry.make(problem, state.discrete->resolution())) {}
+                                                           : made_like(*state.discrete, geometry, problem)) {}
 
   VectorXd residual(const VectorXd& unknowns) const { return discrete_->system().residual(media_, unknowns).value; }
   Discrete& discrete() const { return *discrete_; }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fem/end_loads.h"
+#include "fem/fit_liquid.h"
 #include "fem/tube_fields.h"
 #include "fem/write_fields.h"
 #include "laws/developed_flow.h"
@@ -128,16 +129,64 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   return r;
 }
 
-TubeDiscrete::Space::Space(const Problem& problem, const Resolution& resolution)
-    : mesh(geometry_of(problem), resolution.subdivision, spacing_for(problem.liquid)),
-      of_mesh(mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive) {}
+TubeDiscrete::Space::Space(const Problem& problem, const Resolution& resolution, const SurfaceBreaks& breaks)
+    : mesh(std::make_shared<ChannelMesh>(geometry_of(problem), resolution.subdivision, breaks)),
+      of_mesh(*mesh, resolution.degree, problem.liquid, interior_of(problem), problem.drive) {}
 
 TubeDiscrete::TubeDiscrete(const Problem& problem, const Resolution& resolution)
-    : Discrete(resolution), space_(std::make_shared<Space>(problem, resolution)), system_(space_->of_mesh) {}
+    : TubeDiscrete(problem, resolution, surface_breaks(resolution.subdivision, spacing_for(problem.liquid))) {}
+
+TubeDiscrete::TubeDiscrete(const Problem& problem, const Resolution& resolution, const SurfaceBreaks& breaks)
+    : Discrete(resolution),
+      problem_(problem),
+      space_(std::make_shared<Space>(problem, resolution, breaks)),
+      system_(space_->of_mesh) {}
 
 void TubeDiscrete::move_to(const Problem& problem) {
-  space_ = std::make_shared<Space>(problem, resolution());
-  system_.follow_space(space_->of_mesh);
+  const auto former = std::exchange(space_, std::make_shared<Space>(problem, resolution(), space().mesh().breaks()));
+  problem_ = problem;
+  is_fitted_ ? set_points(transferred_points(former->of_mesh, space())) : system_.follow_space(space());
+}
+
+void TubeDiscrete::set_points(const std::vector<Point>& points) {
+  space().set_points(points);
+  system_.follow_space(space());
+  is_fitted_ = true;
+}
+
+std::shared_ptr<TubeDiscrete> TubeDiscrete::with(const SurfaceBreaks& breaks, const TubeDiscrete& other) const {
+  auto made = std::shared_ptr<TubeDiscrete>(new TubeDiscrete(problem_, resolution(), breaks));
+  made->set_points(transferred_points(other.space(), made->space()));
+  return made;
+}
+
+namespace {
+
+/// A mesh is worn where its quality has fallen to this fraction of what it was, and worth fitting where that raises it
+/// so much.
+constexpr double worn = 0.5, worthwhile = 1.2;
+
+}  // namespace
+
+bool TubeDiscrete::is_worn(const VectorXd& unknowns) const {
+  return liquid_mesh_quality(space(), unknowns) < worn * first_quality_;
+}
+
+std::shared_ptr<Discrete> TubeDiscrete::fitted(const VectorXd& unknowns, Elements elements) const {
+  const SurfaceBreaks& own = space().mesh().breaks();
+  const auto found = with(elements == Elements::even ? fitted_breaks(space(), unknowns) : own, *this);
+  const VectorXd carried = found->transfer_from(*this, unknowns);
+  found->set_points(fitted_points(found->space(), carried));
+  found->first_quality_ = liquid_mesh_quality(found->space(), carried);
+  return found->first_quality_ > worthwhile * liquid_mesh_quality(space(), unknowns) ? found : nullptr;
+}
+
+std::shared_ptr<Discrete> TubeDiscrete::fitted_as(const Discrete& other) const {
+  const auto& fitted = static_cast<const TubeDiscrete&>(other);
+  if (!fitted.is_fitted_) return nullptr;
+  const auto made = with(like(fitted.space().mesh().breaks(), space().mesh().breaks()), fitted);
+  made->first_quality_ = fitted.first_quality_;
+  return made;
 }
 
 VectorXd TubeDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
@@ -191,6 +240,9 @@ namespace {
 
 constexpr Subdivision coarse{2, 4, 1, 2}, middle{3, 6, 1, 2}, fine{4, 8, 2, 2};
 
+/// So much farther may a branch go on finer meshes that its coarse ends say nothing.
+constexpr double never_hopeless = 100;
+
 /// Above this r0 / R the liquid's film is so thin and long that the coarsest mesh is only compared with.
 constexpr double narrow_gap = 0.85;
 
@@ -226,6 +278,13 @@ Geometry tube_geometry(const Problem& problem) {
   tube.margin_at_coarse_ends = 0.3;
   tube.ends_late_on_finer = true;
   tube.knows_ends = true;
+  if (problem.cortex.bending > 0) {
+    // The rim of a dented cell is sharp, wanders along the surface as the cell softens, and is seen by no coarse mesh.
+    tube.ways.push_back({{fine, 8}});
+    tube.min_step_before_refining = 0.01;
+    tube.gain_of_finer = never_hopeless;
+    tube.along.iteration_limit = 8;
+  }
 
   const bool is_narrow = problem.radius_ratio > narrow_gap;
   tube.rungs = {{coarse, 4, is_narrow ? 5 : 9, is_narrow, is_narrow},

@@ -1,0 +1,80 @@
+// Cells as soft as real ones, whose rear is dented: the mesh of the liquid is fitted to them on the way.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "case/read_case.h"
+#include "case/scales.h"
+#include "shape/measures.h"
+#include "solve/continuation.h"
+#include "solve/stationary.h"
+#include "solve/tube.h"
+
+namespace rheocyte::soft_cells_test {
+namespace {
+
+/// HL60 cells in CellCarrier, with the moduli that they have at rest times a factor; bending in kBT.
+Problem hl60(double factor, double bending) {
+  return problem_of(parse_case(fmt::format(R"(
+[channel]
+width_um = 20.0
+[flow]
+rate_ul_per_s = 0.12
+law = "power-law"
+consistency_Pa_sn = 0.2079
+exponent = 0.6548
+axial_tension_Pa = 394.0
+[cell]
+radius_um = 6.5
+[cell.bulk]
+law = "neo-hookean"
+young_modulus_kPa = {}
+[cell.cortex]
+law = "neo-hookean"
+modulus_mN_per_m = {}
+tension_ratio = 0.615
+bending_kBT = {}
+[numerics]
+accuracy = 1e-2
+)",
+                                           0.096 * factor, 1.139 * factor, bending),
+                               "case"));
+}
+
+TEST(SoftCells, ADentedCellHasAState) {
+  // Where the spokes of the mesh round the sphere fold, at d = 0.0935 (moduli of 1.04). A sharp rim: bending of 2e3 kBT
+  // against a tension of 0.7 mN/m. By a mesh that is not fitted on the same way, at its degrees 8 and 9, d = 0.0969.
+  const StationaryState state = solve_stationary(hl60(0.98, 2e3));
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_LT(state.estimated_error, 1e-2);
+  EXPECT_NEAR(state.shape.deformation, 0.0969, 0.01 * 0.0969);
+  EXPECT_LT(std::abs(state.relative_volume_change), 1e-4);
+}
+
+TEST(SoftCells, AStateDoesNotDependOnTheMesh) {
+  // A cell of d = 0.07 on the mesh round the sphere, and on one that is fitted to it, with other elements.
+  const Problem problem = hl60(1.4, 3e4);
+  TubeDiscrete first(problem, {{3, 6, 1, 2}, 8});
+  ContinuationOptions options;
+  options.newton.tolerance = 1e-9;
+  const Path path = stiffness_path(first.system(), problem);
+  const ContinuationReport start = start_branch(path, options);
+  ASSERT_EQ(start.status, Status::converged);
+  const ContinuationReport found = continue_branch(path, options, start.last);
+  ASSERT_EQ(found.status, Status::converged);
+  const VectorXd& unknowns = found.last.unknowns;
+  EXPECT_FALSE(first.fitted_as(first));
+  for (const auto elements : {Discrete::Elements::same, Discrete::Elements::even}) {
+    const auto fitted = first.fitted(unknowns, elements);
+    ASSERT_TRUE(fitted);
+    EXPECT_TRUE(first.fitted_as(*fitted));
+    VectorXd again = fitted->transfer_from(first, unknowns);
+    ASSERT_EQ(newton(fitted->system(), problem, options.newton, again).status, Status::converged);
+    const StateNumbers a = first.numbers(problem, unknowns), b = fitted->numbers(problem, again);
+    EXPECT_NEAR(b.shape.deformation, a.shape.deformation, 1e-4 * a.shape.deformation);
+    EXPECT_NEAR(b.cell_velocity, a.cell_velocity, 1e-5 * a.cell_velocity);
+    EXPECT_NEAR(b.additional_pressure_drop, a.additional_pressure_drop, 1e-3 * a.additional_pressure_drop);
+  }
+}
+
+}  // namespace
+}  // namespace rheocyte::soft_cells_test
