@@ -6,50 +6,136 @@ of 192 Pa at 0.04 ul/s that goes with the stress at the wall. All moduli are mul
 deformations of real cells (medians less what pixels add): 0.063 at 0.04 ul/s, 0.092 at 0.08, 0.119 at 0.12.
 
     python3 bench/soft_cells.py build/rheocyte [--section square] [--law skalak] [--bending 1e4] [--accuracy 1e-2]
+
+With --random 300: cells of any size, law, bending, tension and medium, at deformations from 0.08 to 0.2, or at the ends of
+their branches.
 """
 
 import argparse
 import json
 import pathlib
+import random
 import resource
 import subprocess
 import tempfile
 
 CASE = """
 [channel]
-width_um = 20.0
+width_um = {width}
 section = "{section}"
 [flow]
 rate_ul_per_s = {rate}
-law = "power-law"
-consistency_Pa_sn = 0.2079
-exponent = 0.6548
+{medium}
 axial_tension_Pa = {tension}
 [cell]
-radius_um = 6.5
+radius_um = {radius}
 [cell.bulk]
 law = "neo-hookean"
 young_modulus_kPa = {young}
 [cell.cortex]
 law = "{law}"
 modulus_mN_per_m = {modulus}
-tension_ratio = 0.615
+tension_ratio = {ratio}
 bending_kBT = {bending}
 [numerics]
 accuracy = {accuracy}
 """
 TARGETS = {0.04: 0.063, 0.08: 0.092, 0.12: 0.119}
+MEDIA = {"newtonian": 'viscosity_mPas = 6.0', "0.49 %": 'law = "power-law"\nconsistency_Pa_sn = 0.2079\nexponent = 0.6548',
+         "0.59 %": 'law = "power-law"\nconsistency_Pa_sn = 0.5153\nexponent = 0.5860',
+         "0.83 %": 'law = "power-law"\nconsistency_Pa_sn = 1.4936\nexponent = 0.5149'}
+LAWS = ["neo-hookean", "neo-hookean-reference", "skalak", "linear", "thin-shell"]
 
 
-def solved(program, options, rate, s, folder):
-    case = folder / "case.toml"
-    case.write_text(CASE.format(section=options.section, rate=rate, tension=192 * (rate / 0.04) ** 0.6548,
-                                young=0.096 * s, law=options.law, modulus=1.139 * s, bending=options.bending,
-                                accuracy=options.accuracy))
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([program, "solve", case, "-o", folder / "result"], capture_output=True, check=False)
-    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-    return json.loads((folder / "result" / "result.json").read_text()), seconds
+def hl60(options, rate, s):
+    """Settings of the HL60 cell with its moduli multiplied by s."""
+    return {"section": options.section, "width": 20.0, "rate": rate, "medium": MEDIA["0.49 %"], "accuracy": options.accuracy,
+            "tension": 192 * (rate / 0.04) ** 0.6548, "radius": 6.5, "young": 0.096 * s, "law": options.law,
+            "modulus": 1.139 * s, "ratio": 0.615, "bending": options.bending}
+
+
+def wall_stress(settings):
+    """About, in Pa, of a tube with the pressure drop of the square."""
+    radius, rate = 0.547e-6 * settings["width"], settings["rate"] * 1e-9
+    shear = 4 * rate / (3.14159 * radius**3)
+    numbers = {k.split(" = ")[0]: k.split(" = ")[1] for k in settings["medium"].split("\n")}
+    if "viscosity_mPas" in numbers:
+        return 1e-3 * float(numbers["viscosity_mPas"]) * shear
+    return float(numbers["consistency_Pa_sn"]) * shear ** float(numbers["exponent"])
+
+
+def random_cell(draw, options):
+    """A cell of any law in any medium; its stiffness is that of the stress at the wall."""
+    width = draw.choice([20.0, 30.0])
+    settings = {"section": options.section, "width": width, "medium": draw.choice(list(MEDIA.values())),
+                "rate": draw.uniform(0.04, 0.16) if width == 20 else draw.uniform(0.16, 0.32),
+                "radius": draw.uniform(0.35, 0.9) * 0.547 * width, "law": draw.choice(LAWS), "accuracy": options.accuracy,
+                "ratio": draw.uniform(0.0, 1.2), "bending": draw.choice([0, 10 ** draw.uniform(3, 4.5)])}
+    stress, fraction = wall_stress(settings), draw.choice([0, draw.uniform(0.1, 0.9), 0.35])
+    settings["tension"] = draw.uniform(0, 2.5) * stress * 0.6
+    settings["young"] = 1e-3 * stress * max(fraction, 0.02)
+    settings["modulus"] = 1e-3 * stress * (1 - fraction) * settings["radius"]
+    return settings
+
+
+def softer(settings, s):
+    return settings | {"young": settings["young"] * s, "modulus": settings["modulus"] * s}
+
+
+def solved(program, settings):
+    with tempfile.TemporaryDirectory() as folder:
+        case = pathlib.Path(folder) / "case.toml"
+        case.write_text(CASE.format(**settings))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        run = subprocess.run([program, "solve", case, "-o", pathlib.Path(folder) / "result"], capture_output=True, text=True,
+                             check=False)
+        seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        result = pathlib.Path(folder) / "result" / "result.json"
+        if not result.exists():
+            raise RuntimeError(run.stderr)
+        return json.loads(result.read_text()), seconds
+
+
+def row(state, seconds):
+    modes = " ".join(f"{state[f'mode_{k}']:.4f}" for k in range(2, 8))
+    error = state["estimated_error"]
+    return f"{state['deformation']:.5f} {'-' if error is None else f'{error:.1e}'} {state['status']} {seconds:.1f} {modes}"
+
+
+def find_hl60(options):
+    """The factors of the moduli at which the cell reaches the deformations of real cells."""
+    print("rate s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
+    for rate, target in TARGETS.items():
+        s, stiff, soft = 1.0, None, None  # moduli between which the deformation is passed
+        for _ in range(8):
+            state, seconds = solved(options.program, hl60(options, rate, s))
+            d = state["deformation"]
+            print(f"{rate} {s:.4f} {row(state, seconds)}", flush=True)
+            converged = state["status"] == "converged"
+            if converged and abs(d / target - 1) < 0.01:
+                break
+            if converged and d < target:
+                stiff = s
+            else:
+                soft = s
+            guess = s * (d / target) ** 1.2 if converged else s * 1.15
+            s = guess if not (stiff and soft) or soft < guess < stiff else (stiff * soft) ** 0.5
+
+
+def find_random(options):
+    """Random cells at deformations from 0.08 to 0.2, or at the end of their branches."""
+    draw = random.Random(options.seed)
+    print("cell law bending radius/R s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
+    for i in range(options.random):
+        settings, aim, s = random_cell(draw, options), draw.uniform(0.08, 0.2), 1.0
+        for _ in range(6):
+            state, seconds = solved(options.program, softer(settings, s))
+            size = settings["radius"] / (0.547 * settings["width"])
+            print(f"{i} {settings['law']} {settings['bending']:.0f} {size:.2f} {s:.4f} {row(state, seconds)}", flush=True)
+            d = state["deformation"]
+            if state["status"] != "converged" or abs(d / aim - 1) < 0.1:
+                break
+            s *= min(max((d / aim) ** 0.8, 0.3), 2)
 
 
 def main():
@@ -59,27 +145,10 @@ def main():
     parser.add_argument("--law", default="neo-hookean")
     parser.add_argument("--bending", type=float, default=1e4)
     parser.add_argument("--accuracy", type=float, default=1e-2)
+    parser.add_argument("--random", type=int, default=0, help="so many random cells instead")
+    parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    print("rate s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
-    for rate, target in TARGETS.items():
-        s, stiff, soft = 1.0, None, None  # moduli between which the deformation is passed
-        for _ in range(8):
-            with tempfile.TemporaryDirectory() as folder:
-                state, seconds = solved(options.program, options, rate, s, pathlib.Path(folder))
-            d = state["deformation"]
-            modes = " ".join(f"{state[f'mode_{k}']:.4f}" for k in range(2, 8))
-            print(f"{rate} {s:.4f} {d:.5f} {state.get('estimated_error', float('nan'))} {state['status']} {seconds:.1f} {modes}",
-                  flush=True)
-            if state["status"] == "converged" and abs(d / target - 1) < 0.01:
-                break
-            if state["status"] != "converged" or d > target:
-                soft = s
-            else:
-                stiff = s
-            if stiff and soft:
-                s = (stiff * soft) ** 0.5
-            else:
-                s *= (d / target) ** 0.8 if state["status"] == "converged" else 1.2
+    find_random(options) if options.random > 0 else find_hl60(options)
 
 
 if __name__ == "__main__":

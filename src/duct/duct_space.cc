@@ -77,6 +77,17 @@ void DuctSpace::move_nodes(const VectorXd& outward, double aside) {
   }
 }
 
+void DuctSpace::set_points(const std::vector<DuctPoint>& points) {
+  points_ = straight_points_ = points;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!elements_[e].liquid) continue;
+    std::vector<PointMap<double, 3>> maps = undeformed_maps(int(e));
+    // Dets are told relative to those round the undeformed cell, which these are not.
+    for (std::size_t q = 0; q < maps.size(); ++q) maps[q].det = elements_[e].undeformed[q].det;
+    elements_[e].undeformed = std::move(maps);
+  }
+}
+
 VectorXd DuctSpace::inflow_at(double stretch) const {
   const DuctGeometry& geometry = mesh_.geometry();
   if (geometry.section() == Section::tube) {

@@ -63,6 +63,8 @@ class DuctSpace {
   /// displaced along y by `aside`, and adapts the flow through the inlet.
   void move_nodes(const VectorXd& outward, double aside = 0);
   double aside() const { return aside_; }
+  /// Where the liquid's nodes are in a straight duct round the undeformed cell, from where they follow their spokes.
+  void set_points(const std::vector<DuctPoint>&);
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }

@@ -160,7 +160,8 @@ void Discretisation::set_points(const std::vector<Point>& points) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     if (!elements_[e].liquid) continue;
     std::vector<PointMap<double, 2>> maps = undeformed_maps(int(e));
-    for (std::size_t q = 0; q < maps.size(); ++q) maps[q].det = elements_[e].undeformed[q].det;  // for scale alone
+    // Dets are told relative to those round the undeformed cell, which these are not.
+    for (std::size_t q = 0; q < maps.size(); ++q) maps[q].det = elements_[e].undeformed[q].det;
     elements_[e].undeformed = std::move(maps);
   }
 }

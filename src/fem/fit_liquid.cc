@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fem/element_integrals.h"
-#include "fem/fitted_mesh.h"
+#include "fem/liquid_mesh.h"
 #include "fem/observe.h"
 
 namespace rheocyte {
@@ -19,99 +19,43 @@ constexpr double longest = 0.6, most_turned = 0.7, widest = 0.6;
 /// By how much their length may grow along themselves.
 constexpr double growth = 0.4;
 
-/// The same mesh at the degree at which it is fitted, and the way from and to the degree of the space.
-class LiquidMesh {
- public:
-  LiquidMesh(const Discretisation& space, const VectorXd& unknowns)
-      : space_(space),
-        unknowns_(unknowns),
-        reference_(std::min(space.reference().degree(), max_degree)),
-        numbers_(space.mesh().number_nodes(reference_.degree())),
-        down_(space.reference().lagrange(reference_.nodes_1d)),
-        up_(reference_.lagrange(space.reference().nodes_1d)),
-        mesh_{reference_, {}, MatrixXd::Zero(numbers_.count, 2), {}, 0},
-        places_(MatrixXd::Zero(numbers_.count, 2)) {
-    for (int e = 0; e < int(space.elements().size()); ++e) {
-      const auto& nodes = numbers_.of_element[e];
-      if (!space.elements()[e].liquid) continue;
-      elements_.push_back(e);
-      mesh_.elements.push_back(nodes);
-      const MatrixXd lower = applied(down_, places_of(e));
-      const MeshElement& self = space.mesh().elements()[e];
-      const VectorXd& s = reference_.nodes_1d;
-      const int n = int(s.size());
-      for (int k = 0; k < n * n; ++k) {
-        mesh_.rest.row(nodes[k]) = self.map(space.mesh().geometry(), s(k % n), s(k / n)).transpose();
-        places_.row(nodes[k]) = lower.row(k);
-      }
-    }
-    number_unknowns();
+/// Where an element's nodes are now.
+MatrixXd places_of(const Discretisation& space, int e, const VectorXd& unknowns) {
+  const ElementUnknowns& element = space.elements()[e];
+  const auto& nodes = space.nodes().of_element[e];
+  const int m = element.position_columns;
+  MatrixXd places(nodes.size(), 2);
+  for (int k = 0; k < places.rows(); ++k) places.row(k) = space.node_points()[nodes[k]].transpose();
+  const VectorXd local = local_values(element, unknowns);
+  for (int c = 0; c < 2 && m > 0; ++c) places.col(c) += element.position->at_nodes[c] * local.segment(c * m, m);
+  return places;
+}
+
+/// Nodes of the channel's ends stay, those on the axis and at the wall slide.
+LiquidMesh<2> liquid_mesh(const Discretisation& space, const VectorXd& unknowns, const ReferenceElement<2>& reference) {
+  const ChannelMesh& mesh = space.mesh();
+  const VectorXd& s = reference.nodes_1d;
+  const int n = int(s.size());
+  std::vector<LiquidElement> elements;
+  for (int e = 0; e < int(space.elements().size()); ++e) {
+    if (!space.elements()[e].liquid) continue;
+    MatrixXd rest(n * n, 2);
+    for (int k = 0; k < n * n; ++k)
+      rest.row(k) = mesh.elements()[e].map(mesh.geometry(), s(k % n), s(k / n)).transpose();
+    elements.push_back({e, places_of(space, e, unknowns), std::move(rest)});
   }
+  LiquidMesh<2> liquid(space.reference(), reference, mesh.number_nodes(reference.degree()), std::move(elements));
+  using Component = LiquidMesh<2>::Component;
+  liquid.number_components([end = mesh.geometry().end()](const Point& x) -> std::array<Component, 2> {
+    if (std::abs(x(0)) > end - same_line) return {Component::held, Component::held};
+    return {Component::free, x(1) > same_line && x(1) < 1 - same_line ? Component::free : Component::held};
+  });
+  return liquid;
+}
 
-  double quality() const { return mesh_quality(mesh_, places_); }
-
-  std::vector<Point> fitted() const {
-    std::vector<Point> points = space_.node_points();
-    const MatrixXd places = fitted_places(mesh_, places_);
-    for (const int e : elements_) {
-      const auto& nodes = space_.nodes().of_element[e];
-      const MatrixXd move = applied(up_, (places - places_)(numbers_.of_element[e], Eigen::all));
-      for (int k = 0; k < int(nodes.size()); ++k) {
-        if (space_.displacement(nodes[k], 0) >= 0) continue;
-        points[nodes[k]] = space_.node_points()[nodes[k]] + move.row(k).transpose();
-      }
-    }
-    return points;
-  }
-
- private:
-  static MatrixXd applied(const MatrixXd& table, const MatrixXd& nodal) {
-    MatrixXd result(table.rows() * table.rows(), nodal.cols());
-    for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
-      const MatrixXd values = table * nodal.col(c).reshaped(table.cols(), table.cols()) * table.transpose();
-      result.col(c) = values.reshaped();
-    }
-    return result;
-  }
-
-  /// Where an element's nodes are now.
-  MatrixXd places_of(int e) const {
-    const ElementUnknowns& element = space_.elements()[e];
-    const auto& nodes = space_.nodes().of_element[e];
-    const int m = element.position_columns;
-    MatrixXd places(nodes.size(), 2);
-    for (int k = 0; k < places.rows(); ++k) places.row(k) = space_.node_points()[nodes[k]].transpose();
-    const VectorXd local = local_values(element, unknowns_);
-    for (int c = 0; c < 2 && m > 0; ++c) places.col(c) += element.position->at_nodes[c] * local.segment(c * m, m);
-    return places;
-  }
-
-  /// Nodes of the cell and of the channel's ends stay, those on the axis and at the wall slide.
-  void number_unknowns() {
-    mesh_.unknown.assign(numbers_.count, {-1, -1});
-    std::vector<bool> is_of_cell(numbers_.count, false);
-    for (int e = 0; e < int(space_.elements().size()); ++e) {
-      for (const int node : numbers_.of_element[e])
-        if (!space_.elements()[e].liquid) is_of_cell[node] = true;
-    }
-    const double end = space_.mesh().geometry().end();
-    for (int i = 0; i < numbers_.count; ++i) {
-      const double x = mesh_.rest(i, 0), r = mesh_.rest(i, 1);
-      if (is_of_cell[i] || std::abs(x) > end - same_line) continue;
-      mesh_.unknown[i][0] = mesh_.unknowns++;
-      if (r > same_line && r < 1 - same_line) mesh_.unknown[i][1] = mesh_.unknowns++;
-    }
-  }
-
-  const Discretisation& space_;
-  const VectorXd& unknowns_;
-  ReferenceElement<2> reference_;
-  NodeNumbers numbers_;
-  MatrixXd down_, up_;  ///< between the degrees: nodes x nodes in one direction
-  MovableMesh<2> mesh_;
-  MatrixXd places_;
-  std::vector<int> elements_;  ///< those of the liquid
-};
+ReferenceElement<2> fitted_reference(const Discretisation& space) {
+  return ReferenceElement<2>(std::min(space.reference().degree(), max_degree));
+}
 
 }  // namespace
 
@@ -164,11 +108,21 @@ SurfaceBreaks fitted_breaks(const Discretisation& space, const VectorXd& unknown
 }
 
 double liquid_mesh_quality(const Discretisation& space, const VectorXd& unknowns) {
-  return LiquidMesh(space, unknowns).quality();
+  const ReferenceElement<2> reference = fitted_reference(space);
+  return liquid_mesh(space, unknowns, reference).quality();
 }
 
 std::vector<Point> fitted_points(const Discretisation& space, const VectorXd& unknowns) {
-  return LiquidMesh(space, unknowns).fitted();
+  const ReferenceElement<2> reference = fitted_reference(space);
+  std::vector<Point> points = space.node_points();
+  liquid_mesh(space, unknowns, reference).fit([&](int e, const MatrixXd& moves) {
+    const auto& nodes = space.nodes().of_element[e];
+    for (int k = 0; k < int(nodes.size()); ++k) {
+      if (space.displacement(nodes[k], 0) < 0)
+        points[nodes[k]] = space.node_points()[nodes[k]] + moves.row(k).transpose();
+    }
+  });
+  return points;
 }
 
 }  // namespace rheocyte

@@ -43,18 +43,30 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   /// At the same resolution with a mesh of the liquid that fits round the cell of a state, on the same elements or on
   /// such as are even on its surface; nothing if that is hardly better than this one.
   enum class Elements { same, even };
-  virtual std::shared_ptr<Discrete> fitted(const VectorXd& /*unknowns*/, Elements) const { return nullptr; }
-  /// At this resolution with a mesh that follows the cell as that of another one of the same geometry; nothing if that
-  /// has not been fitted.
-  virtual std::shared_ptr<Discrete> fitted_as(const Discrete& /*other*/) const { return nullptr; }
+  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, Elements) const;
+  /// At this resolution with a mesh that follows the cell as that of another one of the same kind of geometry; nothing
+  /// if that has not been fitted.
+  std::shared_ptr<Discrete> fitted_as(const Discrete& other) const;
   /// Whether the mesh of the liquid has become much worse than it was.
-  virtual bool is_worn(const VectorXd& /*unknowns*/) const { return false; }
+  bool is_worn(const VectorXd& unknowns) const;
   /// Becomes that of another problem whose unknowns mean the same (Geometry::is_alike). The factors stay, for chord
   /// steps there.
   virtual void move_to(const Problem&) = 0;
 
+ protected:
+  bool is_fitted() const { return is_fitted_; }
+  /// Of the liquid's mesh: 1 where it is not distorted, 0 where it folds.
+  virtual double mesh_quality(const VectorXd& unknowns) const = 0;
+  /// Of the same problem at the same resolution with a mesh as that of another one; with elements, if that can be, that
+  /// are even on the surface of a state of it.
+  virtual std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const = 0;
+  /// Moves the liquid's nodes so that the mesh fits round the cell of a state.
+  virtual void fit(const VectorXd& unknowns) = 0;
+
  private:
   Resolution resolution_;
+  bool is_fitted_ = false;
+  double first_quality_ = 1;  ///< of the mesh when it was fitted
 };
 
 }  // namespace rheocyte

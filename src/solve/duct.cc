@@ -12,6 +12,7 @@
 #include "duct/cell_moments.h"
 #include "duct/duct_ends.h"
 #include "duct/duct_fields.h"
+#include "duct/fit_duct.h"
 #include "fem/write_fields.h"
 #include "laws/surface_form.h"
 #include "shape/outline_shape.h"
@@ -171,6 +172,7 @@ DuctSubdivision subdivision_of(const Problem& problem) {
 
 DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
     : Discrete({{}, degree}),
+      problem_(problem),
       subdivision_(subdivision),
       symmetry_(symmetry),
       space_(make_space(problem)),
@@ -190,9 +192,22 @@ std::unique_ptr<DuctSystem> DuctDiscrete::make_system(const Problem& problem) co
 
 void DuctDiscrete::move_to(const Problem& problem) {
   const auto former_space = std::exchange(space_, make_space(problem));
+  problem_ = problem;
+  if (is_fitted()) space().set_points(transferred_points(*former_space, space()));
   const auto former = std::exchange(system_, make_system(problem));
   system_->exchange_factors(*former);
 }
+
+double DuctDiscrete::mesh_quality(const VectorXd& unknowns) const { return liquid_mesh_quality(space(), unknowns); }
+
+/// Elements of a duct are not cut again.
+std::shared_ptr<Discrete> DuctDiscrete::made_as(const Discrete& other, const VectorXd* /*state*/) const {
+  const auto made = std::make_shared<DuctDiscrete>(problem_, subdivision_, resolution().degree, symmetry_);
+  made->space().set_points(transferred_points(static_cast<const DuctDiscrete&>(other).space(), made->space()));
+  return made;
+}
+
+void DuctDiscrete::fit(const VectorXd& unknowns) { space().set_points(fitted_points(space(), unknowns)); }
 
 VectorXd DuctDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
   return transfer(static_cast<const DuctDiscrete&>(other).space(), unknowns, space());
@@ -306,8 +321,8 @@ bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
 /// centred cell the error at degree 4 is below the greatest of 0.4 of the change from degree 3, of 6e-4, by which the
 /// two may agree by chance, and, in shear-thinning liquids, of 0.1 of the change of the stability margin m times
 /// (1 - m)^2, by which the change counts the more the nearer the limit is. Where less is asked the first state is that
-/// of degree 2, and the error at degree 3 below the greater of 0.2 of the change and 4e-3 (docs/verification.md, "The
-/// stated error").
+/// of degree 2, and the error at degree 3 below the greater of 0.2 of the change, 0.4 where the rim may be sharp, and
+/// 4e-3 (docs/verification.md, "The stated error").
 Geometry duct_geometry(const Problem& problem) {
   constexpr double rough = 5e-3;
   const bool is_centred = problem.offset == 0, is_rough = is_centred && problem.accuracy >= rough;
@@ -324,10 +339,14 @@ Geometry duct_geometry(const Problem& problem) {
   // So that what single precision leaves of the last step is rounding, too; 2 to 4 % of the time.
   duct.fine = {.tolerance = 1e-10, .iteration_limit = is_centred ? 5 : 12, .chord_reduction = 0.5};
   duct.begins_with_way = true;
+  if (problem.cortex.bending > 0) {  // a sharp rim, as in the tube
+    duct.climbs_anew = true;
+    duct.fine.iteration_limit = duct.along.iteration_limit = 12;
+  }
   duct.adds_lower_change = true;
   duct.errors = {.fraction_of_change_before = 0.1, .min_of_two = 6e-4};
   if (is_rough) {
-    duct.errors.fraction_of_first_change = 0.2;
+    duct.errors.fraction_of_first_change = problem.cortex.bending > 0 ? 0.4 : 0.2;
     duct.errors.min_of_two = 4e-3;
   } else if (is_centred) {
     duct.errors.fraction_of_first_change = 0.4;

@@ -37,9 +37,13 @@ class DuctDiscrete final : public Discrete {
   void move_to(const Problem&) override;
 
  private:
+  double mesh_quality(const VectorXd& unknowns) const override;
+  std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const override;
+  void fit(const VectorXd& unknowns) override;
   std::shared_ptr<DuctSpace> make_space(const Problem&) const;
   std::unique_ptr<DuctSystem> make_system(const Problem&) const;
 
+  Problem problem_;  ///< that it was made for
   DuctSubdivision subdivision_;
   Symmetry symmetry_;
   std::shared_ptr<DuctSpace> space_;  ///< with those who write its fields later

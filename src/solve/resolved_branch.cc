@@ -137,6 +137,7 @@ bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
   options.iteration_limit = geometry_.across.iteration_limit;  // the mesh changes as from one way to the next
   const auto& [parameter, unknowns, tangent, iterations, step, aim] = state.branch;
   for (const auto elements : {Discrete::Elements::even, Discrete::Elements::same}) {
+    if (elements == Discrete::Elements::even && !geometry_.cuts_elements) continue;
     const auto discrete = state.discrete->fitted(unknowns, elements);
     if (!discrete) continue;
     ResolvedState found = solved(discrete, parameter, discrete->transfer_from(*state.discrete, unknowns), options);

@@ -145,49 +145,26 @@ TubeDiscrete::TubeDiscrete(const Problem& problem, const Resolution& resolution,
 void TubeDiscrete::move_to(const Problem& problem) {
   const auto former = std::exchange(space_, std::make_shared<Space>(problem, resolution(), space().mesh().breaks()));
   problem_ = problem;
-  is_fitted_ ? set_points(transferred_points(former->of_mesh, space())) : system_.follow_space(space());
+  is_fitted() ? set_points(transferred_points(former->of_mesh, space())) : system_.follow_space(space());
 }
 
 void TubeDiscrete::set_points(const std::vector<Point>& points) {
   space().set_points(points);
   system_.follow_space(space());
-  is_fitted_ = true;
 }
 
-std::shared_ptr<TubeDiscrete> TubeDiscrete::with(const SurfaceBreaks& breaks, const TubeDiscrete& other) const {
-  auto made = std::shared_ptr<TubeDiscrete>(new TubeDiscrete(problem_, resolution(), breaks));
-  made->set_points(transferred_points(other.space(), made->space()));
+double TubeDiscrete::mesh_quality(const VectorXd& unknowns) const { return liquid_mesh_quality(space(), unknowns); }
+
+std::shared_ptr<Discrete> TubeDiscrete::made_as(const Discrete& other, const VectorXd* state) const {
+  const Discretisation& like_it = static_cast<const TubeDiscrete&>(other).space();
+  const SurfaceBreaks breaks = state ? fitted_breaks(like_it, *state) : like_it.mesh().breaks();
+  const auto made =
+      std::shared_ptr<TubeDiscrete>(new TubeDiscrete(problem_, resolution(), like(breaks, space().mesh().breaks())));
+  made->set_points(transferred_points(like_it, made->space()));
   return made;
 }
 
-namespace {
-
-/// A mesh is worn where its quality has fallen to this fraction of what it was, and worth fitting where that raises it
-/// so much.
-constexpr double worn = 0.5, worthwhile = 1.2;
-
-}  // namespace
-
-bool TubeDiscrete::is_worn(const VectorXd& unknowns) const {
-  return liquid_mesh_quality(space(), unknowns) < worn * first_quality_;
-}
-
-std::shared_ptr<Discrete> TubeDiscrete::fitted(const VectorXd& unknowns, Elements elements) const {
-  const SurfaceBreaks& own = space().mesh().breaks();
-  const auto found = with(elements == Elements::even ? fitted_breaks(space(), unknowns) : own, *this);
-  const VectorXd carried = found->transfer_from(*this, unknowns);
-  found->set_points(fitted_points(found->space(), carried));
-  found->first_quality_ = liquid_mesh_quality(found->space(), carried);
-  return found->first_quality_ > worthwhile * liquid_mesh_quality(space(), unknowns) ? found : nullptr;
-}
-
-std::shared_ptr<Discrete> TubeDiscrete::fitted_as(const Discrete& other) const {
-  const auto& fitted = static_cast<const TubeDiscrete&>(other);
-  if (!fitted.is_fitted_) return nullptr;
-  const auto made = with(like(fitted.space().mesh().breaks(), space().mesh().breaks()), fitted);
-  made->first_quality_ = fitted.first_quality_;
-  return made;
-}
+void TubeDiscrete::fit(const VectorXd& unknowns) { set_points(fitted_points(space(), unknowns)); }
 
 VectorXd TubeDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
   return transfer(static_cast<const TubeDiscrete&>(other).space(), unknowns, space());
@@ -276,6 +253,7 @@ Geometry tube_geometry(const Problem& problem) {
   tube.gain_of_finer = 1.2;
   tube.gain_by_change = 6;
   tube.margin_at_coarse_ends = 0.3;
+  tube.cuts_elements = true;
   tube.ends_late_on_finer = true;
   tube.knows_ends = true;
   if (problem.cortex.bending > 0) {

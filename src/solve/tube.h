@@ -31,9 +31,6 @@ class TubeDiscrete final : public Discrete {
   void describe(const Problem&, const VectorXd& unknowns, StationaryState&) const override;
   VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const override;
   void move_to(const Problem&) override;
-  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, Elements) const override;
-  std::shared_ptr<Discrete> fitted_as(const Discrete& other) const override;
-  bool is_worn(const VectorXd& unknowns) const override;
 
  private:
   struct Space {
@@ -42,15 +39,14 @@ class TubeDiscrete final : public Discrete {
     Discretisation of_mesh;
   };
   TubeDiscrete(const Problem&, const Resolution&, const SurfaceBreaks&);
-  /// The same with other elements, and with the mesh of the liquid as in another one.
-  std::shared_ptr<TubeDiscrete> with(const SurfaceBreaks&, const TubeDiscrete& points_of) const;
+  double mesh_quality(const VectorXd& unknowns) const override;
+  std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const override;
+  void fit(const VectorXd& unknowns) override;
   void set_points(const std::vector<Point>&);
 
   Problem problem_;               ///< that it was made for
   std::shared_ptr<Space> space_;  ///< with those who write its fields later
   StationarySystem system_;
-  bool is_fitted_ = false;
-  double first_quality_ = 1;  ///< of the mesh of the liquid, when it was fitted
 };
 
 /// What numbers are read off: the unknowns of a problem.
