@@ -25,13 +25,18 @@ class DoneStep {
     const double distance = std::abs(value(levels_[end_]) - extrapolated);
     return std::isfinite(distance) ? distance : 0;
   }
-  double local_error(const auto& value) const { return fraction() * distance_from_extrapolated(value); }
-  double rate() const { return formula_.rate; }
+  double local_error(const auto& value) const {
+    return (is_first() ? error_fraction_of_first_step : formula_.error_fraction) * distance_from_extrapolated(value);
+  }
+  /// Of the position, which goes on with the extrapolated velocity; in the first step that is all there is.
+  double error_of_position() const {
+    const double by_formula = is_first() ? 0 : local_error([](const TimePoint& level) { return level.position; });
+    const auto velocity = [](const TimePoint& level) { return level.state.cell_velocity; };
+    return by_formula + distance_from_extrapolated(velocity) / formula_.rate;
+  }
 
  private:
-  double fraction() const {
-    return weights_.size() > formula_.weights.size() ? formula_.error_fraction : error_fraction_of_first_step;
-  }
+  bool is_first() const { return end_ == 1; }
 
   const std::vector<TimePoint>& levels_;
   std::size_t end_;
@@ -51,9 +56,7 @@ LocalErrors local_errors(const std::vector<TimePoint>& levels) {
       const DoneStep step(levels, i);
       for (const StateMeasure& measure : state_measures)
         measure.of(numbers) = step.local_error([&](const TimePoint& level) { return measure.value(level.state); });
-      position += step.local_error([](const TimePoint& level) { return level.position; }) +
-                  step.distance_from_extrapolated([](const TimePoint& level) { return level.state.cell_velocity; }) /
-                      step.rate();
+      position += step.error_of_position();
     }
     errors.numbers.push_back(numbers);
     errors.positions.push_back(position);

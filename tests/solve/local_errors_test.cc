@@ -49,8 +49,8 @@ TEST(LocalErrors, AreThoseOfTheFormulaWhereOneDerivativeIsLeftOut) {
 }
 
 TEST(LocalErrors, OfAPlaceAreSumsWhichContainTheVelocityThatWasExtrapolated) {
-  // Equal steps h of order 1. The first one leaves half its way and the whole change of the velocity over its rate;
-  // later ones of x = t^2 and v = 2 t, as they are extrapolated, a third of 2 h^2, and nothing by the velocity.
+  // Equal steps h of order 1, x = t^2 and v = 2 t. The first one goes on at the velocity of the start and leaves its
+  // change, 2 h, over the rate; later ones leave a third of 2 h^2, and nothing by the velocity, which is linear.
   constexpr double h = 0.5;
   std::vector<TimePoint> levels(4);
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -63,7 +63,7 @@ TEST(LocalErrors, OfAPlaceAreSumsWhichContainTheVelocityThatWasExtrapolated) {
   ASSERT_EQ(errors.positions.size(), levels.size());
   EXPECT_EQ(errors.positions[0], 0);
   for (std::size_t i = 1; i < levels.size(); ++i)
-    EXPECT_NEAR(errors.positions[i], h * h * (0.5 + 2 + 2.0 / 3 * double(i - 1)), rounding);
+    EXPECT_NEAR(errors.positions[i], h * h * (2 + 2.0 / 3 * double(i - 1)), rounding);
 }
 
 TEST(LocalErrors, OfNumbersThatAreNotKnownAreNothing) {
