@@ -2,11 +2,12 @@
 """How honest and how sharp the stated errors of runs in time are: random cells of tools/random_cases on their way in tubes
 and contractions, each against the same run with steps a hundred times as accurate on a finer mesh.
 
-    bench/time_errors.py [--program build/rheocyte] [--runs 40] [--seed 1] [--first 0] [--rows FILE]
+    bench/time_errors.py [--program build/rheocyte] [--runs 40] [--seed 1] [--first 0] [--outputs 6] [--until T] [--rows FILE]
 
 Every second run has the default accuracies. Judged are the numbers of the last state and of the way in result.json, and those
 of all outputs. A number is off by its distance from the tight run, less what the tight run states of itself. Prints a row for each
-number that is off by more than it states, and a summary; --rows keeps a line of JSON for each number.
+number that is off by more than it states, and a summary; --rows keeps a line of JSON for each number. With --until 0.07 --outputs
+100 it looks at the start-up, until that multiple of R/U.
 """
 import argparse
 import collections
@@ -26,7 +27,6 @@ ROUNDING = 3e-9  # and the tolerance of Newton's method, of a number
 LIMIT_S = 600
 FINER_STEPS, FINER_MESH, FINER_DEGREE = 100, 30, 3
 LEAST_ACCURACY, LEAST_MESH_ACCURACY, GREATEST_DEGREE = 1e-9, 1e-6, 10
-OUTPUTS = 6
 
 
 def random_cases():
@@ -99,17 +99,20 @@ def compared(run, other):
             yield where, name, value, stated, max(off, 0.0), abs(value - exact), left
 
 
-def draw(module, seed, number, program, folder):
+def draw(module, number, chosen, folder):
     for trial in range(100):
-        case = module.RandomCase(random.Random(f"{seed}-{number}-{trial}"))
+        case = module.RandomCase(random.Random(f"{chosen.seed}-{number}-{trial}"))
         keys = case.keys
         if number % 2:
             for key in ("time.accuracy", "time.mesh_accuracy", "time.degree"):
                 keys.pop(key, None)
-        keys["time.output_every_us"] = keys.get("time.end_us", case.way / case.radius * case.time) / OUTPUTS
+        if chosen.until:
+            keys.pop("time.end_um", None)
+            keys["time.end_us"] = chosen.until * case.time
+        keys["time.output_every_us"] = keys.get("time.end_us", case.way / case.radius * case.time) / chosen.outputs
         path = Path(folder, "drawn.toml")
         path.write_text(case.toml())
-        if subprocess.run([program, "solve", path, "--check"], capture_output=True, check=False).returncode == 0:
+        if subprocess.run([chosen.program, "solve", path, "--check"], capture_output=True, check=False).returncode == 0:
             return keys
     raise SystemExit(f"run {number}: no valid case in a hundred")
 
@@ -137,12 +140,14 @@ def main():
     options.add_argument("--runs", type=int, default=40)
     options.add_argument("--first", type=int, default=0)
     options.add_argument("--seed", default="1")
+    options.add_argument("--outputs", type=int, default=6)
+    options.add_argument("--until", type=float)
     options.add_argument("--rows", type=Path)
     chosen = options.parse_args()
     module, rows, number, done = random_cases(), [], chosen.first, 0
     while done < chosen.runs:
         with tempfile.TemporaryDirectory() as folder:
-            keys = draw(module, chosen.seed, number, chosen.program, folder)
+            keys = draw(module, number, chosen, folder)
             run, why = solve(chosen.program, keys, folder)
             if run is not None and run["estimated_error"] is not None:
                 other, why_other = solve(chosen.program, tight(keys, run), folder)

@@ -9,6 +9,9 @@ inline constexpr int max_bdf_order = 5;              ///< of the stable formulas
 inline constexpr int max_a_stable_order = 2;         ///< of those in which no oscillation grows, however long the step
 inline constexpr int max_nearly_a_stable_order = 3;  ///< only those grow that fade by less than a third in a period
 
+/// Local error of a first step of order 1 over its whole change: it has no level to be extrapolated from.
+inline constexpr double error_fraction_of_first_step = 0.5;
+
 /// Values at the new time and at past times make a polynomial; weights of its derivative at the new time.
 struct BdfFormula {
   double rate = 0;          ///< of the new value

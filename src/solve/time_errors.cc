@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solve/ladder.h"
+#include "solve/local_errors.h"
 #include "solve/time_follower.h"
 #include "solve/time_resolution.h"
 
@@ -154,22 +155,44 @@ std::vector<ErrorParts> error_parts(const std::vector<TimePoint>& points, const 
 
 /// The first run's errors at its levels, the ends of its steps. A state is one of a polynomial through order + 1 levels
 /// (docs/theory-time.md, eq:error-of-levels): what they are off by makes its error. The change to another run, whose
-/// steps are others, passes zero in one of them by chance, but not in all.
-struct LevelErrors {
-  const std::vector<TimePoint>& levels;
-  std::vector<ErrorParts> errors;
+/// steps are others, passes zero in one of them by chance, but not in all; where its steps are no longer than those of
+/// the first run, it tells nothing, but the steps of the first run themselves do (eq:local-error).
+class LevelErrors {
+ public:
+  LevelErrors(const std::vector<TimePoint>& levels, std::vector<ErrorParts> changes)
+      : levels_(levels), changes_(std::move(changes)), local_(local_errors(levels)) {}
 
   /// Of a state at a time, for which those of its own change are given, in place of them.
   ErrorParts around(double time, ErrorParts own) const {
-    const auto last = std::ranges::lower_bound(levels, time, {}, &TimePoint::time);
-    if (last == levels.end()) return own;
-    const std::size_t at = std::size_t(last - levels.begin()), before = std::min<std::size_t>(at, last->order);
-    for (std::size_t i = at - before; i <= at; ++i) {
-      take_greater(errors[i].steps, own.steps);
-      take_greater(errors[i].mesh, own.mesh);
+    const std::size_t end = level_after(time), before = std::min<std::size_t>(end, levels_[end].order);
+    for (std::size_t i = end - before; i <= end; ++i) {
+      take_greater(changes_[i].steps, own.steps);
+      take_greater(changes_[i].mesh, own.mesh);
     }
+    for (std::size_t i = end - before; i <= end; ++i) add_where_not_exact(local_.numbers[i], own.steps);
     return own;
   }
+  /// Of the place at a time, by the steps until then.
+  double position_error(double time) const { return local_.positions[level_after(time)]; }
+  /// Of the time at which the cell is where it is then.
+  double time_error(double time) const {
+    return position_error(time) / std::abs(levels_[level_after(time)].state.cell_velocity);
+  }
+
+ private:
+  std::size_t level_after(double time) const {
+    const auto level = std::ranges::lower_bound(levels_, time, {}, &TimePoint::time);
+    return std::min(std::size_t(level - levels_.begin()), levels_.size() - 1);
+  }
+  /// What is given has no error.
+  static void add_where_not_exact(const StateNumbers& local, StateNumbers& errors) {
+    for (const StateMeasure& measure : state_measures)
+      if (measure.value(errors) != 0) measure.of(errors) += measure.value(local);
+  }
+
+  const std::vector<TimePoint>& levels_;
+  std::vector<ErrorParts> changes_;
+  LocalErrors local_;
 };
 
 /// Of times and positions no error becomes smaller on the way; a place at a time is no better than a step.
@@ -186,9 +209,10 @@ std::vector<TimePoint> errors_at(const std::vector<TimePoint>& points, const Oth
       return others.factor_of_steps() * std::abs(points[i].*number - steps.*number) +
              std::abs(steps.*number - mesh.*number);
     };
-    time = std::max(time, error_of(&TimePoint::time));
-    position = std::max(position, error_of(&TimePoint::position));
-    errors.push_back({.time = time, .position = position, .state = levels.around(points[i].time, parts[i]).sum()});
+    const double here = points[i].time;
+    time = std::max(time, error_of(&TimePoint::time) + (by_place ? levels.time_error(here) : 0));
+    position = std::max(position, error_of(&TimePoint::position) + (by_place ? 0 : levels.position_error(here)));
+    errors.push_back({.time = time, .position = position, .state = levels.around(here, parts[i]).sum()});
   }
   return errors;
 }

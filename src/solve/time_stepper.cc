@@ -184,8 +184,7 @@ TimeStepper::Trial TimeStepper::attempt(double step, int order) {
   trial.level.velocities = moving_->node_velocities(trial.level.unknowns);
   if (media_.bulk.branch_modulus > 0) trial.level.branch = moving_->branch_metric(media_.bulk, trial.level.unknowns);
   trial.level.frame_acceleration = motion.rate * trial.level.unknowns(v) + motion.unknowns(v);
-  const double fraction =
-      levels > order ? trial.formula.error_fraction : 0.5;  // the first step has nothing to compare with
+  const double fraction = levels > order ? trial.formula.error_fraction : error_fraction_of_first_step;
   trial.error = fraction * surface_change(trial.level.unknowns - guess, trial.formula.rate);
   return trial;
 }
