@@ -13,6 +13,7 @@ their branches.
 
 import argparse
 import json
+import math
 import pathlib
 import random
 import resource
@@ -105,21 +106,28 @@ def row(state, seconds):
 def find_hl60(options):
     """The factors of the moduli at which the cell reaches the deformations of real cells."""
     print("rate s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
+    s = 1.0
     for rate, target in TARGETS.items():
-        s, stiff, soft = 1.0, None, None  # moduli between which the deformation is passed
+        found = []  # (ln s, ln d) of states
+        lost = None  # the stiffest cell without a state
         for _ in range(8):
             state, seconds = solved(options.program, hl60(options, rate, s))
             d = state["deformation"]
             print(f"{rate} {s:.4f} {row(state, seconds)}", flush=True)
-            converged = state["status"] == "converged"
-            if converged and abs(d / target - 1) < 0.01:
-                break
-            if converged and d < target:
-                stiff = s
+            if state["status"] == "converged":
+                if abs(d / target - 1) < 0.01:
+                    break
+                found.append((math.log(s), math.log(d)))
             else:
-                soft = s
-            guess = s * (d / target) ** 1.2 if converged else s * 1.15
-            s = guess if not (stiff and soft) or soft < guess < stiff else (stiff * soft) ** 0.5
+                lost = s
+            if not found:
+                s *= 1.15
+                continue
+            found.sort(key=lambda point: abs(point[1] - math.log(target)))
+            slope = (found[1][1] - found[0][1]) / (found[1][0] - found[0][0]) if len(found) > 1 else -1.0
+            s = math.exp(found[0][0] + (math.log(target) - found[0][1]) / slope)
+            if lost and s <= lost:
+                s = math.sqrt(lost * math.exp(min(found)[0]))
 
 
 def find_random(options):
