@@ -524,6 +524,9 @@ export const startModuli = (item: number, settings: Record<string, unknown>) =>
   json<Moduli>(`/api/items/${item}/moduli`, sending('POST', settings));
 export const readModuli = (item: number) => json<Moduli>(`/api/items/${item}/moduli`);
 export const stopModuli = (item: number) => request(`/api/items/${item}/moduli`, { method: 'DELETE' });
+/** With gates as settings, or the numbers of the events within. */
+export const readReport = (item: number, gates: Record<string, string[]> | { gate: number[] }, signal: AbortSignal) =>
+  json<Pick<Moduli, 'summary' | 'counts' | 'lines'>>(`/api/items/${item}/report`, sending('POST', gates, signal));
 export const readItemLines = (item: number, x: string, y: string) =>
   json<Lines>(`/api/items/${item}/lines?${query({ x, y })}`);
 

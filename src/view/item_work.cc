@@ -154,6 +154,16 @@ void add_bulk_cortex_fit(const Json& request, const ExtractOptions& options, con
   }
 }
 
+/// Of the events within the gates alone, which is no matter of a companion.
+void give_report(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+  const fs::path file = path_in(request, "file");
+  ExtractOptions options = options_of_settings(request.at("settings"));
+  options.measuring.gates.events = gate_in(request);
+  const ModulusTables tables(options.table, options.section);
+  check_against_tables(options, tables);
+  reply.give(json_text(moduli_report(file, summary_of_recording(file, options, tables, tell))));
+}
+
 /// The other files that the recording is read from, and what they are now.
 Json basins_of(const fs::path& file) {
   const auto basins = Recording(file).files_of_basins();
@@ -201,13 +211,10 @@ struct Named {
 const Isolation stays{.patience_s = 1e9};
 /// Between two signs of life there is the fit of a whole recording.
 const Isolation fits{.patience_s = 600};
-const Named isolated_work[]{{"describe", describe},
-                            {"names", list_columns},
-                            {"columns", give_columns},
-                            {"inspect", inspect_events, stays},
-                            {"picture", give_picture},
-                            {"lines", give_lines},
-                            {"population", compute_population, fits}};
+const Named isolated_work[]{{"describe", describe},    {"names", list_columns},
+                            {"columns", give_columns}, {"inspect", inspect_events, stays},
+                            {"picture", give_picture}, {"lines", give_lines},
+                            {"report", give_report},   {"population", compute_population, fits}};
 
 }  // namespace
 

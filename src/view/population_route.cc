@@ -8,7 +8,6 @@
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
-#include "events/polygon_file.h"
 #include "events/recording_settings.h"
 #include "experiment/analyse_populations.h"
 #include "report/population_files.h"
@@ -16,6 +15,7 @@
 #include "report/settings_text.h"
 #include "serve/few_at_once.h"
 #include "serve/json_member.h"
+#include "view/moduli_settings.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
 
@@ -41,8 +41,7 @@ Json population_settings(const Json& given) {
     if (name != "table" && name != "jobs" && given.contains(name)) settings[name] = given[name];
   }
   if (settings.value("model", Json()) != "cortex") settings.erase("section");  // of the moduli beside it
-  for (const Json& one : settings.value("polygon", Json::array()))
-    if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
+  refuse_polygon_files(settings);
   return settings;
 }
 

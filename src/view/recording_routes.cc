@@ -10,8 +10,10 @@
 #include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "serve/json_member.h"
 #include "store/file_version.h"
 #include "view/moduli_runs.h"
+#include "view/moduli_settings.h"
 #include "view/modulus_states.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
@@ -128,6 +130,20 @@ class RecordingAnswers {
     return moduli(request);
   }
 
+  /// Of the events within gates alone, with the settings of the item's moduli.
+  Answer report(const Request& request) const {
+    if (runs_.companion(request.number("item")).empty())
+      throw Refused(409, "changed", "There are no moduli of the recording as it is now; compute them first.");
+    const Json asked = request.json();
+    Json wanted = recording_in(request);
+    wanted["do"] = "report";
+    for (const char* name : {"min", "max", "polygon"})
+      for (const Json& gate : list_member(asked, name)) wanted["settings"][name].push_back(gate);
+    refuse_polygon_files(wanted["settings"]);
+    take_gate(asked, wanted);
+    return {.body = ask(request, wanted).all()};
+  }
+
   Json kept_moduli() const { return runs_.kept(); }
   void restore_moduli(const Json& kept) { runs_.restore(kept); }
 
@@ -187,12 +203,16 @@ class RecordingAnswers {
     if (request.contains("version") && request["version"] != file_version(found.files))
       throw Refused(409, "changed", "The recording has changed since its events were read; read them again.");
     Json wanted{{"do", "moduli"}, {"file", path_text(found.place.path)}, {"settings", runs_.settings(number)}};
-    if (!request.contains("gate") || request["gate"].is_null()) return wanted;
+    take_gate(request, wanted);
+    return wanted;
+  }
+
+  static void take_gate(const Json& request, Json& wanted) {
+    if (!request.contains("gate") || request["gate"].is_null()) return;
     const Json& gate = request["gate"];
     if (!gate.is_array() || !std::ranges::all_of(gate, [](const Json& one) { return one.is_number_unsigned(); }))
       throw Refused(400, "input", "gate is a list of the numbers of events, counted from 0, or null.");
     wanted["gate"] = gate;
-    return wanted;
   }
 
   static std::string file_name(const Json& request, std::string_view ending) {
@@ -226,6 +246,9 @@ void add_recording_routes(Router& router, Exports& exports, ViewSession& session
   add("POST", "/api/items/{item}/moduli", &RecordingAnswers::start_moduli);
   add("GET", "/api/items/{item}/moduli", &RecordingAnswers::moduli);
   add("DELETE", "/api/items/{item}/moduli", &RecordingAnswers::stop_moduli);
+  router.add(
+      "POST", "/api/items/{item}/report", [answers](const Request& request) { return answers->report(request); },
+      big_body_limit);
   exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
     return answers->write_companion(wish, request, folder);
   });

@@ -7,9 +7,9 @@ import { Conditions } from './Conditions';
 import { column, columnsVersion, wantColumns } from './columns';
 import { isYoungModulus, labelOf } from './features';
 import { items, measured, paintedGates, recordings, titleOf } from './model';
-import { moduli } from './moduli';
 import { distinctNames } from './names';
 import { recommendedOf } from './recommended';
+import { reports } from './reports';
 import { forward, rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
 import { useOrigin } from './StatisticsTable';
 import { useSize } from './use_size';
@@ -34,7 +34,7 @@ function useEntries(feature: string, scale: ScaleKind): { entries: Entry[]; span
   const version = useStore(columnsVersion);
   const active = useStore(paintedGates);
   const all = useStore(items);
-  const runs = useStore(moduli);
+  const runs = useStore(reports);
   return useMemo(() => {
     const ready = recordings(all).filter((item) => item.state === 'ready');
     const ordered = [...ready].sort((a, b) => a.condition.localeCompare(b.condition));

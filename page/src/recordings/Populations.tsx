@@ -9,8 +9,8 @@ import { items, recordings } from './model';
 import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from './population_runs';
 import { dotsOf, intervalOf, sessionsOf, type Interval } from './condition_dots';
 import { RecommendedMean } from './Conditions';
-import { moduli } from './moduli';
 import { recommendedOf } from './recommended';
+import { reports } from './reports';
 import { ticksOf, type Span } from './scale';
 import { useSize } from './use_size';
 
@@ -91,7 +91,7 @@ function interval(value: Interval | undefined): string {
 
 function Table({ found, quantity: { quantity, median, symbol, unit } }: { found: Population; quantity: Quantity }) {
   const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
-  const runs = useStore(moduli);
+  const runs = useStore(reports);
   const isModulus = quantity === 'young_modulus' && all.some(({ item }) => recommendedOf(runs[item]));
   return (
     <table class="conditions">

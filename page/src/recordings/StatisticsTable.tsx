@@ -10,6 +10,7 @@ import { moduli } from './moduli';
 import { originOf } from './origin';
 import { FeatureOptions } from './PlotSelects';
 import { inShort, recommendedOf } from './recommended';
+import { reports } from './reports';
 import { counted } from './scale';
 
 /** Of median, mean, SD, SE and quartiles; all of them are under the pointer. */
@@ -40,9 +41,9 @@ export function useOrigin(feature: string): string {
   return originOf(feature, shown, tables);
 }
 
-/** What is to be reported of the recording, whatever the gates of the page. */
+/** What is to be reported of the events within the gates. */
 function RecommendedCell({ item }: { item: Item }) {
-  const recommended = recommendedOf(useStore(moduli)[item.item]);
+  const recommended = recommendedOf(useStore(reports)[item.item]);
   return (
     <td class="recommended" title={recommended?.text}>
       {recommended ? inShort(recommended).replace(' ± ', '\n±\u00a0').replace(' ± ', '\u00a0±\u00a0') : '–'}
@@ -116,7 +117,7 @@ export function StatisticsTable() {
       <p class="soft">
         {unit && `In ${unit}. `}
         {isModulus && 'Recommended E: the number to report, with its errors by the scatter of the events and by what they share; the reason is under the pointer and at the left. '}
-        {isModulus && isGated && 'It is that of all events, without the gates. '}
+        {isModulus && isGated && 'It is that of the events within the gates. '}
         SE is the standard error of the mean: SD divided by the root of the number of events.
       </p>
     </div>
