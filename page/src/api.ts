@@ -351,11 +351,11 @@ function give(failure: unknown): never {
   throw broken(failure);
 }
 
-async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
+export async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
   return (await request(path, options)).json().catch(give) as Promise<T>;
 }
 
-function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
+export function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
   return { method, body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal };
 }
 

@@ -1,5 +1,4 @@
-#include "view/recording_routes.h"
-
+// Recordings: /api/items and what is below, and their exports.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -12,11 +11,14 @@
 #include "case/user_error.h"
 #include "serve/json_member.h"
 #include "store/file_version.h"
+#include "view/export_folder.h"
+#include "view/item_work.h"
 #include "view/moduli_runs.h"
 #include "view/moduli_settings.h"
 #include "view/modulus_states.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
+#include "view/view_session.h"
 
 namespace rheocyte {
 
@@ -226,38 +228,42 @@ class RecordingAnswers {
   ModuliRuns runs_;
 };
 
-}  // namespace
-
-void add_recording_routes(Router& router, Exports& exports, ViewSession& session, ViewItems& items) {
-  const auto answers = std::make_shared<RecordingAnswers>(items);
+void add_recording_routes(const ViewContext& view) {
+  const auto answers = std::make_shared<RecordingAnswers>(view.items);
   const auto add = [&](std::string_view method, std::string_view pattern, auto answer) {
-    router.add(method, pattern, [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
+    view.router.add(method, pattern,
+                    [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
   };
-  router.add("GET", "/api/states", [](const Request&) { return json_answer(modulus_states()); });
-  router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
+  view.router.add("GET", "/api/states", [](const Request&) { return json_answer(modulus_states()); });
+  view.router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
   add("GET", "/api/items/{item}", &RecordingAnswers::item);
   add("PATCH", "/api/items/{item}", &RecordingAnswers::label);
   add("GET", "/api/items/{item}/events", &RecordingAnswers::columns);
   add("GET", "/api/items/{item}/events/{event}", &RecordingAnswers::event);
   for (const std::string feature : {"image", "mask"})
-    router.add("GET", "/api/items/{item}/events/{event}/" + feature,
-               [answers, feature](const Request& request) { return answers->picture(request, feature); });
+    view.router.add("GET", "/api/items/{item}/events/{event}/" + feature,
+                    [answers, feature](const Request& request) { return answers->picture(request, feature); });
   add("GET", "/api/items/{item}/lines", &RecordingAnswers::lines);
   add("POST", "/api/items/{item}/moduli", &RecordingAnswers::start_moduli);
   add("GET", "/api/items/{item}/moduli", &RecordingAnswers::moduli);
   add("DELETE", "/api/items/{item}/moduli", &RecordingAnswers::stop_moduli);
-  router.add(
+  view.router.add(
       "POST", "/api/items/{item}/report", [answers](const Request& request) { return answers->report(request); },
       big_body_limit);
-  exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+  view.exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
     return answers->write_companion(wish, request, folder);
   });
-  exports.add("events", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+  view.exports.add("events", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
     return answers->write_events(wish, request, folder);
   });
-  session.add({"items", [&items] { return items.kept(); }, [&items](const Json& kept) { items.restore(kept); }});
-  session.add({"moduli", [answers] { return answers->kept_moduli(); },
-               [answers](const Json& kept) { answers->restore_moduli(kept); }});
+  view.session.add({"items", [&items = view.items] { return items.kept(); },
+                    [&items = view.items](const Json& kept) { items.restore(kept); }});
+  view.session.add({"moduli", [answers] { return answers->kept_moduli(); },
+                    [answers](const Json& kept) { answers->restore_moduli(kept); }});
 }
+
+}  // namespace
+
+extern const ViewPart recording_routes{add_recording_routes, work_on_items()};
 
 }  // namespace rheocyte

@@ -159,10 +159,9 @@ TEST_F(ModuliOfRecordings, AreComputedAgainByASession) {
   open_virtual_cells(20);
   const Json first = moduli({{"viscosity_mPas", 30}});
   ASSERT_EQ(first["state"], "ready") << first;
-  const fs::path file = folder_ / "session.toml";
-  std::ofstream(file) << session_.text();
+  const fs::path file = exported("session", "session.toml")["file"].get<std::string>();
   ASSERT_EQ(ask("DELETE", "/api/items/0/moduli").status, 200);
-  session_.read(file);
+  routes_->open(file);
   Json again;
   do again = json("GET", "/api/items/0/moduli");
   while (again["state"] == "running");

@@ -15,8 +15,7 @@
 #include "case/json_guard.h"
 #include "measurement/recording_writer.h"
 #include "report/extract_recording.h"
-#include "view/recording_routes.h"
-#include "view/view_items.h"
+#include "view/view_routes.h"
 #include "virtual_cells.h"
 
 namespace rheocyte::recording_requests {
@@ -51,9 +50,7 @@ class RecordingRequests : public testing::Test {
   }
   void open(const fs::path& file) {
     const std::array<fs::path, 1> paths{file};
-    items_.emplace(paths);
-    add_recording_routes(router_, exports_, session_, *items_);
-    exports_.add_route(router_);
+    routes_.emplace(paths, folder_ / "out");
   }
 
   Answer ask(const std::string& method, const std::string& path, Request::Names query = {},
@@ -63,7 +60,7 @@ class RecordingRequests : public testing::Test {
     request.path = path;
     request.query = std::move(query);
     request.body = body;
-    return router_.answer(request);
+    return routes_->router().answer(request);
   }
   static std::string bytes_of(const Answer& answer) {
     std::string bytes;
@@ -94,11 +91,7 @@ class RecordingRequests : public testing::Test {
   }
 
   test::ScratchFolder folder_;
-  ExportFolder out_{folder_ / "out"};
-  Exports exports_{out_};
-  ViewSession session_;
-  std::optional<ViewItems> items_;
-  Router router_;
+  std::optional<ViewRoutes> routes_;
 };
 
 template <class Number>

@@ -1,33 +1,20 @@
 // Statistics of a feature by recording, over the events within the gates.
-import type { Item } from '../api';
-import { significant } from '../draw/numbers';
-import { useStore } from '../shell/store';
-import { countWithin, statisticsOf } from './analysis';
-import { columnsVersion } from './columns';
-import { isComputed, isYoungModulus, labelOf, unitOf } from './features';
-import { focus, gates, items, measured, recordings, titleOf } from './model';
-import { moduli } from './moduli';
-import { originOf } from './origin';
-import { FeatureOptions } from './PlotSelects';
-import { inShort, recommendedOf } from './recommended';
-import { reports } from './reports';
-import { counted } from './scale';
+import type { Item } from '../../api';
+import { significant } from '../../draw/numbers';
+import { useStore } from '../../shell/store';
+import { countWithin, statisticsOf } from '../analysis';
+import { columnsVersion } from '../columns';
+import { isComputed, isYoungModulus, labelOf, unitOf } from '../features';
+import { focus, gates, items, measured, recordings, titleOf } from '../model';
+import { moduli } from '../moduli';
+import { originOf } from '../origin';
+import { inShort, recommendedOf } from '../recommended';
+import { reports } from '../reports';
+import { counted } from '../scale';
+import type { Tab } from '../tab';
 
 /** Of median, mean, SD, SE and quartiles; all of them are under the pointer. */
 const digits = [4, 4, 3, 2, 3, 3];
-
-export function MeasuredSelect() {
-  const feature = useStore(measured);
-  const offered = [...new Set(recordings(useStore(items)).flatMap((item) => item.features ?? []))];
-  return (
-    <label class="choice">
-      <span>Of</span>
-      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
-        <FeatureOptions features={offered} chosen={feature} />
-      </select>
-    </label>
-  );
-}
 
 /** Where the numbers of a feature come from, of all recordings that can be read. */
 export function useOrigin(feature: string): string {
@@ -78,7 +65,7 @@ function Row({ item, feature }: { item: Item; feature: string }) {
   );
 }
 
-export function StatisticsTable() {
+function StatisticsTable() {
   useStore(columnsVersion);
   const feature = useStore(measured);
   const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
@@ -123,3 +110,5 @@ export function StatisticsTable() {
     </div>
   );
 }
+
+export default { name: 'statistics', title: 'Statistics', place: 1, measures: true, Content: StatisticsTable } satisfies Tab;

@@ -1,5 +1,4 @@
-#include "view/evolve_route.h"
-
+// POST /api/evolve: a cell on its way in time, line by line.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,8 +13,10 @@
 #include "laws/wall_profile.h"
 #include "result/evolution.h"
 #include "serve/json_member.h"
+#include "serve/router.h"
 #include "view/case_from_json.h"
 #include "view/state_json.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -157,11 +158,14 @@ Answer evolve(Evolutions& evolutions, const Request& request) {
   return answer;
 }
 
+void add_evolve_routes(const ViewContext& view) {
+  view.router.add("POST", "/api/evolve", [running = std::make_shared<Evolutions>()](const Request& request) {
+    return evolve(*running, request);
+  });
+}
+
 }  // namespace
 
-void add_evolve_route(Router& router) {
-  const auto evolutions = std::make_shared<Evolutions>();
-  router.add("POST", "/api/evolve", [evolutions](const Request& request) { return evolve(*evolutions, request); });
-}
+extern const ViewPart evolve_routes{add_evolve_routes};
 
 }  // namespace rheocyte
