@@ -94,9 +94,7 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
 }
 
 Answer population(ViewItems& items, const Request& request) {
-  HostedWork work = items.host().ask(json_text(population_work(request.json(), items)));
-  work.only_while([client = request.client] { return !client || !client->has_left(); });
-  return {.body = work.all()};
+  return {.body = items.host().ask(json_text(population_work(request.json(), items))).all(request.watch())};
 }
 
 /// Between two signs of life there is the fit of a whole recording.

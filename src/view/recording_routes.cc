@@ -85,17 +85,19 @@ class RecordingAnswers {
     if (list.empty() || features.size() > most_features)
       throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
     if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
-    const auto work =
-        std::make_shared<HostedWork>(ask_of_item(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
+    const auto work = std::make_shared<HostedWork>(
+        work_on_item(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
     std::string head;
-    work->read([&head](std::string_view piece) {
+    const Watch watch = request.watch();
+    const auto take_head = [&head](std::string_view piece) {
       head = piece;
       return false;
-    });
+    };
+    work->read(take_head, watch);
     Answer answer;
     answer.type = "application/octet-stream";
     answer.headers = {{"X-Rheocyte-Columns", head}};
-    answer.give_pieces = [work](const TakePiece& take) { work->read(take); };
+    answer.give_pieces = [work, watch](const TakePiece& take) { work->read(take, watch); };
     return answer;
   }
 
@@ -112,12 +114,12 @@ class RecordingAnswers {
     if (std::ranges::find(pictures, Json(feature)) == pictures.end())
       throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
     const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
-    return {.type = "image/png", .body = ask_of_item(request, wanted).all()};
+    return {.type = "image/png", .body = work_on_item(request, wanted).all(request.watch())};
   }
 
   Answer lines(const Request& request) const {
     const Json wanted{{"do", "lines"}, {"x", request.asked("x", "area_um")}, {"y", request.asked("y", "deform")}};
-    return {.body = ask_of_item(request, wanted).all()};
+    return {.body = work_on_item(request, wanted).all(request.watch())};
   }
 
   Answer start_moduli(const Request& request) {
@@ -143,7 +145,7 @@ class RecordingAnswers {
       for (const Json& gate : list_member(asked, name)) wanted["settings"][name].push_back(gate);
     refuse_polygon_files(wanted["settings"]);
     take_gate(asked, wanted);
-    return {.body = ask(request, wanted).all()};
+    return {.body = ask(wanted).all(request.watch())};
   }
 
   Json kept_moduli() const { return runs_.kept(); }
@@ -154,7 +156,7 @@ class RecordingAnswers {
     Json wanted = export_request(wish);
     ExportPlace place = folder.claim(file_name(wish, ".rtdc"));
     wanted["companion"] = path_text(place.scratch());
-    static_cast<void>(ask(request, wanted).all());
+    static_cast<void>(ask(wanted).all(request.watch()));
     place.publish();
     return place.path();
   }
@@ -168,24 +170,19 @@ class RecordingAnswers {
     const bool is_gated = wanted.contains("gate");
     if (!is_gated) wanted["events"] = path_text(place.scratch());
     if (is_gated) wanted["events_of_gate"] = path_text(place.scratch());
-    static_cast<void>(ask(request, wanted).all());
+    static_cast<void>(ask(wanted).all(request.watch()));
     place.publish();
     return place.path();
   }
 
  private:
   /// The work on the item of a request, with what has been computed from it.
-  HostedWork ask_of_item(const Request& request, Json wanted) const {
+  HostedWork work_on_item(const Request& request, Json wanted) const {
     wanted.update(recording_in(request));
-    return ask(request, wanted);
+    return ask(wanted);
   }
 
-  /// Ends once the client of the request has left.
-  HostedWork ask(const Request& request, const Json& wanted) const {
-    HostedWork work = items_.host().ask(json_text(wanted));
-    work.only_while([client = request.client] { return !client || !client->has_left(); });
-    return work;
-  }
+  HostedWork ask(const Json& wanted) const { return items_.host().ask(json_text(wanted)); }
 
   Json recording_in(const Request& request) const {
     const std::size_t number = request.number("item");
