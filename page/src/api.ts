@@ -351,11 +351,11 @@ function give(failure: unknown): never {
   throw broken(failure);
 }
 
-async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
+export async function json<T>(path: string, options: RequestInit = {}): Promise<T> {
   return (await request(path, options)).json().catch(give) as Promise<T>;
 }
 
-function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
+export function sending(method: string, body: unknown, signal?: AbortSignal): RequestInit {
   return { method, body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal };
 }
 
@@ -524,6 +524,9 @@ export const startModuli = (item: number, settings: Record<string, unknown>) =>
   json<Moduli>(`/api/items/${item}/moduli`, sending('POST', settings));
 export const readModuli = (item: number) => json<Moduli>(`/api/items/${item}/moduli`);
 export const stopModuli = (item: number) => request(`/api/items/${item}/moduli`, { method: 'DELETE' });
+/** With gates as settings, or the numbers of the events within. */
+export const readReport = (item: number, gates: Record<string, string[]> | { gate: number[] }, signal: AbortSignal) =>
+  json<Pick<Moduli, 'summary' | 'counts' | 'lines'>>(`/api/items/${item}/report`, sending('POST', gates, signal));
 export const readItemLines = (item: number, x: string, y: string) =>
   json<Lines>(`/api/items/${item}/lines?${query({ x, y })}`);
 

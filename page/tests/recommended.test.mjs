@@ -36,11 +36,12 @@ test('a condition has a recommended mean only if all of its recordings have a nu
   for (const missing of [null, undefined]) assert.equal(meanRecommended(of(4, 5, missing)).value, NaN);
 });
 
-/** The number that `rheocyte extract` recommends. */
-async function recommendedBy(file, folder) {
-  await promisify(execFile)(program, ['extract', file, '-o', folder, '--quiet']);
+/** The number that `rheocyte extract` recommends, and its sentence. */
+async function recommendedBy(file, folder, options = []) {
+  await promisify(execFile)(program, ['extract', file, '-o', folder, '--quiet', ...options]);
   const [heads, values] = (await readFile(join(folder, 'rheocyte_summary.tsv'), 'utf8')).split('\n').map((line) => line.split('\t'));
-  return Number(values[heads.indexOf('recommended_young_modulus_median_kPa')]);
+  const said = (name) => values[heads.indexOf(`recommended_${name}`)];
+  return { exact: Number(said('young_modulus_median_kPa')), text: said('text').replaceAll('+-', '±') };
 }
 
 const elongated = ['recording.cells=60', 'flow.axial_tension_Pa=400', 'flow.rate_ul_per_s=0.06', 'cell.bulk.young_modulus_kPa.mean=4'];
@@ -81,7 +82,7 @@ function roomBeside(input) {
 for (const width of [1280, 1920])
   test(`the number of the command line is in all views of elongated cells, within their boxes, at ${width} pixels`, { skip }, () =>
     withElongatedCells({ viewport: { width, height: 900 } }, async (page, files, folder) => {
-      const exact = await recommendedBy(files[0], folder);
+      const { exact } = await recommendedBy(files[0], folder);
       const number = exact.toPrecision(3);
       for (const [item, condition] of ['control', 'drug'].entries()) {
         const row = page.locator('.recording').nth(item);
@@ -115,3 +116,31 @@ for (const width of [1280, 1920])
       for (const field of await page.locator('.setting input[placeholder="automatic"]').all())
         if (await field.isVisible()) assert.ok((await field.evaluate(roomBeside)) >= 0, 'the word is whole');
     }));
+
+test('within gates the page recommends what the command with the same gates does', { skip }, () =>
+  withElongatedCells({}, async (page, files, folder) => {
+    const cell = page.locator('.statistics tr[data-item="0"] .recommended');
+    const shown = async () => ({ short: await cell.textContent(), text: await cell.getAttribute('title') });
+    const said = ({ exact, text }) => page.waitForFunction(([number, sentence]) => {
+      const own = document.querySelector('.statistics tr[data-item="0"] .recommended');
+      const panel = document.querySelector('.to-report h3');
+      return own?.title === sentence && own.textContent.startsWith(number) && panel?.textContent.includes(`E = ${number} ±`);
+    }, [exact.toPrecision(3), text]);
+    await recordings.computeModuli(page);
+    const all = await recommendedBy(files[0], folder);
+    await said(all);
+
+    await recordings.drawBox(page, [0.02, 0.02], [0.55, 0.98]);
+    const command = await page.locator('.command code').first().textContent();
+    const options = command.slice(command.indexOf('--min')).split(' ');
+    assert.equal(options.filter((option) => /^--(min|max)$/.test(option)).length, 4, command);
+    const within = await recommendedBy(files[0], folder, options);
+    assert.notEqual(within.text, all.text, 'the gate leaves out some cells');
+    await said(within);
+
+    await page.getByRole('tab', { name: /^Gates/ }).click();
+    for (const check of await page.locator('.gate input[type="checkbox"]').all()) await check.uncheck();
+    await page.getByRole('tab', { name: 'Statistics' }).click();
+    await said(all);
+    assert.equal((await shown()).text, all.text);
+  }));

@@ -92,7 +92,7 @@ class Plot {
       file.close();
       return panel;
     };
-    return run_isolated(work, limits, [](double) {});
+    return run_isolated(work, limits);
   }
 
   json described(const fs::path& recording, const PlotPanel& panel) {

@@ -77,7 +77,8 @@ int run(const SynthOptions& options) {
   const auto work = [&](const TellProgress& report_progress) {
     return write_virtual_recording(spec, *shapes, provenance, file.scratch(), report_progress);
   };
-  const auto done = run_isolated(work, {}, FileProgress(one_line(options.output.string(), 200), options.quiet));
+  const auto done =
+      run_isolated(work, {}, {.progress = FileProgress(one_line(options.output.string(), 200), options.quiet)});
   if (done.stopped()) return exit_stopped();
   if (!done.finished()) refuse(done.end);
   file.publish();

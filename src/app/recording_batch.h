@@ -98,7 +98,7 @@ class RecordingBatch {
           [this, &turn](const TellProgress& report_progress) {
             return to_bytes(job_.work(turn.task, *turn.files, report_progress));
           },
-          limits, FileProgress(one_line(turn.task.recording.string(), 200), options_.quiet),
+          limits, {.progress = FileProgress(one_line(turn.task.recording.string(), 200), options_.quiet)},
           [this, &turn](IsolatedEnd end) {
             this->end(turn, isolated_from<Result>(std::move(end)));
             tell_in_order();

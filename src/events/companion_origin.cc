@@ -58,7 +58,7 @@ std::optional<bool> look_for_log(const std::string& command, const fs::path& fil
       return false;
     }
   };
-  const auto looked = run_isolated(has_our_log, {}, [](double) {});
+  const auto looked = run_isolated(has_our_log);
   if (looked.stopped()) return {};
   if (looked.end.kind == IsolatedEnd::Kind::user_error) throw UserError(looked.end.text);
   return looked.finished() && looked.result;

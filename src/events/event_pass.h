@@ -18,9 +18,7 @@ class EventPass {
   EventPass& operator=(const EventPass&) = delete;
 
   /// For long work on single events: tells that it goes on. It may be asked as often as one likes.
-  Watch watch() const {
-    return {.stop = [this] { return goes_on_(), false; }};
-  }
+  Watch watch() const { return {.alive = goes_on_}; }
 
   /// work(first, count) on events [first, first + count), with `at_a_time` events but for the last block.
   void in_blocks(std::size_t at_a_time, const std::function<void(std::size_t first, std::size_t count)>& work);

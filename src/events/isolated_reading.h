@@ -1,7 +1,6 @@
 // Recordings are read in a process of their own: HDF5 is known to break down on damaged files, and must not take the
 // program along.
 #pragma once
-#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "case/user_error.h"
 #include "events/options.h"
 #include "store/isolated.h"
-#include "store/watch.h"
 
 namespace rheocyte {
 
@@ -18,19 +16,8 @@ namespace rheocyte {
 template <class Work>
 auto read_isolated(const std::filesystem::path& recording, const MeasuringOptions& measuring, const Watch& watch,
                    const Work& work) {
-  std::exception_ptr thrown;
-  Isolation limits;
-  limits.patience_s = measuring.patience_s.value_or(default_patience_s);
-  limits.is_wanted = [&] { return !thrown && !watch.stop(); };
-  auto done = run_isolated(work, limits, [&](double fraction) {
-    if (thrown) return;
-    try {
-      watch.progress(fraction);
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  });
-  if (thrown) std::rethrow_exception(thrown);
+  const Isolation limits{.patience_s = measuring.patience_s.value_or(default_patience_s)};
+  auto done = run_isolated(work, limits, watch);
   if (done.stopped()) throw StoppedBySignal{};
   if (done.end.kind == IsolatedEnd::Kind::own_error) throw std::runtime_error(done.end.text);
   if (!done.finished()) throw UserError(sentence_for(recording, done.end, limits.patience_s));

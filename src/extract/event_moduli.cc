@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "case/user_error.h"
-#include "measurement/metadata.h"
 #include "shelf/shipped_tables.h"
 
 namespace rheocyte {
@@ -49,10 +48,6 @@ ModuliTable::ModuliTable(const ModuliOptions& options)
         "rheocyte: --axial-tension-Pa needs a table of elongated cells (table.axial_ratio); those of {} have "
         "none.",
         content.spec.identifier));
-}
-
-Section ModuliTable::section_of(const Recording& recording, std::optional<Section> wanted) const {
-  return section_seen(wanted, recording.metadata().text(made_of_key).value_or(""), content.spec.base);
 }
 
 double ModuliTable::section_error_factor() const {

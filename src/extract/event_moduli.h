@@ -19,9 +19,6 @@ struct ModuliTable {
   ModuliTable(const ModuliTable&) = delete;
   ModuliTable& operator=(const ModuliTable&) = delete;
 
-  /// See section_seen.
-  Section section_of(const Recording&, std::optional<Section> wanted) const;
-
   /// By how much more the law of the square channel leaves of its cells than of neo-Hookean ones.
   double section_error_factor() const;
   /// Of c_3 of its cells.

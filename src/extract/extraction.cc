@@ -188,17 +188,17 @@ bool has_cells(const ElongatedLiquid* table, const std::string& cells, Elongatio
 
 // What a virtual recording says of its cells, and which table has such ones.
 std::string Extraction::made_of() const {
-  const auto cells = events_.recording().metadata().text(made_of_key);
-  if (!cells) return {};
+  const std::string& cells = events_.facts().made_of;
+  if (cells.empty()) return {};
   const double exponent = conditions().flow.exponent;
   const auto elongation = elongation_of_cells(events_.recording().metadata());
-  const std::string made = fmt::format("made by rheocyte synth from {}{}", one_line(*cells, 100), words_of(elongation)),
+  const std::string made = fmt::format("made by rheocyte synth from {}{}", one_line(cells, 100), words_of(elongation)),
                     used = table().origin().identifier;
-  if (elongation && has_cells(tables_.elongated(exponent), *cells, *elongation))
+  if (elongation && has_cells(tables_.elongated(exponent), cells, *elongation))
     return made + "; the table of elongated cells fits.";
-  if (!elongation && *cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
+  if (!elongation && cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
   for (const ModulusMap* const other : tables_.others(exponent))
-    if (!elongation && *cells == other->origin().cells())
+    if (!elongation && cells == other->origin().cells())
       return fmt::format("{}; the table {} fits, the moduli given here are from {}.", made, other->origin().identifier,
                          used);
   return fmt::format("{}; no table that comes with the program has such cells, the moduli given here are from {}.",

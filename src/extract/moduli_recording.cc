@@ -36,7 +36,7 @@ class Fits {
         threads_(threads),
         events_(recording, options.measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
         simulated_exponent_(table.simulated.exponent),
-        section_(table.section_of(recording, options.section)),
+        section_(section_seen(options.section, events_.facts().made_of, table.content.spec.base)),
         is_told_(options.section),
         outline_noise_um_(options.outline_noise_um.value_or(0)),
         solids_(std::string(), section_),

@@ -114,4 +114,13 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
   return summary;
 }
 
+ExtractSummary summary_of_recording(const fs::path& file, const ExtractOptions& options, const ModulusTables& tables,
+                                    const TellProgress& on_progress) {
+  Recording recording(file);
+  EventPass pass(recording, on_progress);
+  Extraction extraction(recording, options, tables);
+  pass.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) { extraction.compute(first, count); });
+  return extraction.summary();
+}
+
 }  // namespace rheocyte

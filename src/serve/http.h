@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "store/watch.h"
+
 namespace rheocyte {
 
 /// The other end of a connection.
@@ -34,6 +36,10 @@ struct Request {
   const Client* client = nullptr;  ///< while the answer is made; nobody in some tests
 
   bool client_has_left() const { return client && client->has_left(); }
+  /// Of whoever computes for the client.
+  Watch watch() const {
+    return {.stop = [client = client] { return client && client->has_left(); }};
+  }
   /// The whole number that stands in the path at {name}. Refused (404) if it is none.
   std::size_t number(std::string_view name) const;
   /// A value of the query.

@@ -12,7 +12,7 @@
 namespace rheocyte {
 
 /// Of a request's body, in bytes.
-inline constexpr std::size_t usual_body_limit = std::size_t(1) << 20, picture_body_limit = std::size_t(16) << 20;
+inline constexpr std::size_t usual_body_limit = std::size_t(1) << 20, big_body_limit = std::size_t(16) << 20;
 
 /// Filled before the server starts, unchanged afterwards; its functions are called by many threads at once.
 class Router {

@@ -5,25 +5,26 @@
 namespace rheocyte {
 
 void WorkReply::run_isolated(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
-                             Isolation limits) const {
-  limits.is_wanted = [this] { return is_wanted(); };
+                             const Isolation& limits) const {
   const auto isolated = [&](const TellProgress& tell) {
     work(tell);
     return std::string();
   };
-  const IsolatedEnd end = run_isolated_bytes(isolated, limits, [this](double done) { report_progress(done); });
+  const IsolatedEnd end = run_isolated_bytes(
+      isolated, limits,
+      {.progress = [this](double done) { report_progress(done); }, .stop = [this] { return !is_wanted(); }});
   if (end.kind == IsolatedEnd::Kind::stopped) throw UserError("Nobody waits any more for what was asked.");
   if (end.kind != IsolatedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
 }
 
-std::string HostedWork::all(const TellProgress& on_progress) {
+std::string HostedWork::all(const Watch& watch) {
   std::string text;
   read(
       [&](std::string_view piece) {
         text += piece;
         return true;
       },
-      on_progress);
+      watch);
   return text;
 }
 

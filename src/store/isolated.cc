@@ -6,12 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -23,6 +21,7 @@
 
 #include "case/user_error.h"
 #include "store/child_process.h"
+#include "store/packets.h"
 #include "store/process_start.h"
 #include "store/stop_signal.h"
 #include "store/system_limit.h"
@@ -34,36 +33,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = IsolatedEnd::Kind;
 
-enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
-
-struct Header {
-  MessageKind message = MessageKind::progress;
-  std::uint64_t length = 0;
-};
-
-void send(int pipe, MessageKind message, const void* data, std::size_t length) {
-  std::string bytes(sizeof(Header) + length, '\0');
-  Header header{};
-  header.message = message;
-  header.length = length;
-  std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, data, length);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::write(pipe, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) ::_exit(1);  // the parent is gone
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-}
-
-void send(int pipe, MessageKind message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
-
-int pipe_to_parent = -1;
+int socket_to_parent = -1;
 
 // Ends the child at once: Eigen's matrices do not survive std::bad_alloc, and nothing here can be saved.
 [[noreturn]] void tell_of_no_memory() {
-  Header header{};
-  header.message = MessageKind::no_memory;
-  static_cast<void>(!::write(pipe_to_parent, &header, sizeof header));
+  send_packet(socket_to_parent, Word::no_memory);
   ::_exit(0);
 }
 
@@ -103,15 +77,15 @@ class SignalsHeldBack {
   sigset_t before_{};
 };
 
-[[noreturn]] void be_the_child(const std::function<std::string(const TellProgress&)>& work, const Isolation& limits,
-                               int pipe, const SignalsHeldBack& signals) {
+[[noreturn]] void be_the_child(const IsolatedWork& work, const Isolation& limits, int socket,
+                               const SignalsHeldBack& signals) {
   end_with_parent(SIGKILL);
   // A terminal sends its signals to all processes. The parent answers them; a child that died of them would look like
   // one that broke down.
   for (const int signal : stopping_signals) std::signal(signal, SIG_IGN);
   for (const int signal : {SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
   signals.let_through();
-  pipe_to_parent = pipe;
+  socket_to_parent = socket;
   std::set_new_handler(tell_of_no_memory);
   // The C library writes about broken memory to standard error, which would frighten more than it helps.
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -121,78 +95,23 @@ class SignalsHeldBack {
   }
   limit(limits);
   try {
-    const std::string text =
-        work([pipe](double fraction) { send(pipe, MessageKind::progress, &fraction, sizeof fraction); });
-    send(pipe, MessageKind::result, text);
+    const std::string text = work([socket](double fraction) {
+      if (!send_progress(socket, fraction)) ::_exit(1);  // the parent is gone
+    });
+    if (send_pieces(socket, Word::piece, text)) send_packet(socket, Word::done);
   } catch (const UserError& error) {
-    send(pipe, MessageKind::user_error, error.what());
+    send_packet(socket, Word::user_error, error.what());
   } catch (const std::bad_alloc&) {
-    send(pipe, MessageKind::no_memory, std::string());
+    send_packet(socket, Word::no_memory);
   } catch (const std::exception& error) {
-    send(pipe, MessageKind::own_error, error.what());
+    send_packet(socket, Word::own_error, error.what());
   }
   ::_exit(0);  // no destructors of the parent's objects, no flushing of its buffers
 }
 
-}  // namespace
-
-/// Puts messages together from what arrives in pieces.
-class IsolatedInbox {
- public:
-  /// `longest`: of a message in bytes; a child that broke down may announce anything.
-  IsolatedInbox(const TellProgress& on_progress, std::uint64_t longest)
-      : on_progress_(on_progress), longest_(longest) {}
-
-  /// False at the end of the pipe.
-  bool read_from(int pipe) {
-    char buffer[65536];
-    const ssize_t count = ::read(pipe, buffer, sizeof buffer);
-    if (count < 0) return errno == EINTR || errno == EAGAIN;
-    if (count == 0) return false;
-    bytes_.append(buffer, static_cast<std::size_t>(count));
-    while (take_message()) {
-    }
-    return true;
-  }
-
-  bool has_end() const { return has_end_; }
-  const IsolatedEnd& end() const { return end_; }
-
- private:
-  bool take_message() {
-    Header header{};
-    if (bytes_.size() < sizeof header) return false;
-    std::memcpy(&header, bytes_.data(), sizeof header);
-    if (header.length > longest_ || bytes_.size() < sizeof header + header.length) return false;
-    const std::string text = bytes_.substr(sizeof header, header.length);
-    bytes_.erase(0, sizeof header + header.length);
-    if (header.message == MessageKind::progress) {
-      double fraction = 0;
-      if (text.size() == sizeof fraction) std::memcpy(&fraction, text.data(), sizeof fraction);
-      on_progress_(fraction);
-      return true;
-    }
-    end_.text = text;
-    end_.kind = header.message == MessageKind::result       ? Kind::finished
-                : header.message == MessageKind::user_error ? Kind::user_error
-                : header.message == MessageKind::no_memory  ? Kind::no_memory
-                                                            : Kind::own_error;
-    has_end_ = true;
-    return true;
-  }
-
-  const TellProgress& on_progress_;
-  std::uint64_t longest_;
-  std::string bytes_;
-  IsolatedEnd end_;
-  bool has_end_ = false;
-};
-
-namespace {
-
 // What the messages, the status and our own impatience say together.
-IsolatedEnd conclude(const IsolatedInbox& inbox, int status) {
-  if (WIFEXITED(status) && inbox.has_end()) return inbox.end();
+IsolatedEnd conclude(std::optional<IsolatedEnd> said, int status) {
+  if (WIFEXITED(status) && said) return std::move(*said);
   // A breakdown after the result (when HDF5 closes) does not make the result good: files may be incomplete.
   if (WIFSIGNALED(status))
     return {WTERMSIG(status) == SIGKILL ? Kind::killed : Kind::broke_down, ::strsignal(WTERMSIG(status))};
@@ -211,44 +130,44 @@ void kill_child(pid_t child) {
 /// A child and what has come from it.
 class IsolatedPool::Run {
  public:
-  Run(const IsolatedWork& work, Isolation limits, TellProgress on_progress, OnEnd on_end)
-      : limits_(std::move(limits)), on_progress_(std::move(on_progress)), on_end_(std::move(on_end)) {
-    int ends[2];
-    if (make_pipe(ends) != 0) throw SystemLimit("open files", errno);
+  Run(const IsolatedWork& work, const Isolation& limits, Watch watch, OnEnd on_end)
+      : patience_s_(limits.patience_s), watch_(std::move(watch)), on_end_(std::move(on_end)) {
+    const PacketSockets sockets;
     std::fflush(nullptr);
     const SignalsHeldBack signals;
     child_ = ::fork();
-    if (child_ < 0) {
-      const int reason = errno;
-      ::close(ends[0]);
-      ::close(ends[1]);
-      throw SystemLimit("processes", reason);
-    }
     if (child_ == 0) {
-      ::close(ends[0]);
-      be_the_child(work, limits_, ends[1], signals);
+      ::close(sockets.ours);
+      be_the_child(work, limits, sockets.theirs, signals);
     }
-    ::close(ends[1]);
-    pipe_ = ends[0];
+    const int reason = errno;
+    ::close(sockets.theirs);
+    socket_ = sockets.ours;
+    if (child_ > 0) return;
+    ::close(socket_);
+    throw SystemLimit("processes", reason);
   }
   ~Run() {
     if (!has_ended_) kill_child(child_);
-    ::close(pipe_);
+    ::close(socket_);
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  int pipe() const { return pipe_; }
-  int pause_ms() const { return limits_.is_wanted ? 50 : 200; }
+  int socket() const { return socket_; }
 
-  /// What has come, if there is anything, and whether it has to be given up. Its end, once it has come.
-  std::optional<IsolatedEnd> look(bool has_come) {
-    if (has_come) {
+  /// Takes what has come, and says whether it has to be given up. Its end, once it has come.
+  std::optional<IsolatedEnd> look() {
+    constexpr int most_packets = 32;  // others, and the watch, have their turn
+    for (int i = 0; i < most_packets; ++i) {
+      const Packet packet = receive_packet(socket_, 0);
+      if (packet.word == Word::none) break;
       last_word_ = Clock::now();
-      if (!inbox_.read_from(pipe_)) return has_ended_ = true, conclude(inbox_, wait_for(child_));
+      if (packet.word == Word::closed) return has_ended_ = true, conclude(std::move(said_), wait_for(child_));
+      take(packet);
     }
-    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word_).count() > limits_.patience_s;
-    const bool stops = stop_wanted() || (limits_.is_wanted && !limits_.is_wanted());
+    const bool hangs = std::chrono::duration<double>(Clock::now() - last_word_).count() > patience_s_;
+    const bool stops = stop_wanted() || watch_.stop();
     if (!hangs && !stops) return std::nullopt;
     kill_child(child_);
     has_ended_ = true;
@@ -257,12 +176,24 @@ class IsolatedPool::Run {
   void tell_end(IsolatedEnd end) const { on_end_(std::move(end)); }
 
  private:
-  Isolation limits_;
-  TellProgress on_progress_;
+  void take(const Packet& packet) {
+    switch (packet.word) {
+      case Word::progress: return watch_.progress(progress_in(packet));
+      case Word::piece: result_ += packet.text; return;
+      case Word::done: said_ = {Kind::finished, std::move(result_)}; return;
+      case Word::user_error: said_ = {Kind::user_error, packet.text}; return;
+      case Word::no_memory: said_ = {Kind::no_memory, {}}; return;
+      default: said_ = {Kind::own_error, packet.text};
+    }
+  }
+
+  double patience_s_;
+  Watch watch_;
   OnEnd on_end_;
   pid_t child_ = -1;
-  int pipe_ = -1;
-  IsolatedInbox inbox_{on_progress_, limits_.memory_bytes};
+  int socket_ = -1;
+  std::string result_;
+  std::optional<IsolatedEnd> said_;
   Clock::time_point last_word_ = Clock::now();
   bool has_ended_ = false;
 };
@@ -270,10 +201,9 @@ class IsolatedPool::Run {
 IsolatedPool::IsolatedPool(int at_once) : at_once_(at_once) {}
 IsolatedPool::~IsolatedPool() = default;
 
-void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress,
-                         const OnEnd& on_end) {
+void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const Watch& watch, const OnEnd& on_end) {
   while (std::ssize(runs_) >= at_once_) look();
-  runs_.push_back(std::make_unique<Run>(work, limits, on_progress, on_end));
+  runs_.push_back(std::make_unique<Run>(work, limits, watch, on_end));
 }
 
 void IsolatedPool::wait_for_all() {
@@ -281,17 +211,14 @@ void IsolatedPool::wait_for_all() {
 }
 
 void IsolatedPool::look() {
-  std::vector<pollfd> wanted;
-  int pause_ms = 200;
-  for (const auto& run : runs_) {
-    wanted.push_back({run->pipe(), POLLIN, 0});
-    pause_ms = std::min(pause_ms, run->pause_ms());
-  }
-  const int ready = ::poll(wanted.data(), wanted.size(), pause_ms);
+  constexpr int pause_ms = 50;
+  std::vector<pollfd> awaited;
+  for (const auto& run : runs_) awaited.push_back({run->socket(), POLLIN, 0});
+  ::poll(awaited.data(), awaited.size(), pause_ms);
   std::vector<std::pair<std::unique_ptr<Run>, IsolatedEnd>> ended;
-  for (std::size_t i = wanted.size(); i-- > 0;) {
+  for (std::size_t i = runs_.size(); i-- > 0;) {
     const auto run = runs_.begin() + std::ptrdiff_t(i);
-    auto end = (*run)->look(ready > 0 && wanted[i].revents != 0);
+    auto end = (*run)->look();
     if (!end) continue;
     ended.emplace_back(std::move(*run), std::move(*end));
     runs_.erase(run);
@@ -299,10 +226,10 @@ void IsolatedPool::look() {
   for (auto& [run, end] : ended) run->tell_end(std::move(end));
 }
 
-IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress) {
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const Watch& watch) {
   IsolatedEnd result;
   IsolatedPool pool(1);
-  pool.start(work, limits, on_progress, [&](IsolatedEnd end) { result = std::move(end); });
+  pool.start(work, limits, watch, [&](IsolatedEnd end) { result = std::move(end); });
   pool.wait_for_all();
   return result;
 }

@@ -9,15 +9,14 @@
 #include <vector>
 
 #include "store/bytes.h"
-#include "store/progress.h"
+#include "store/watch.h"
 
 namespace rheocyte {
 
 /// What the isolated work may use.
 struct Isolation {
   std::size_t memory_bytes = std::size_t{4} << 30U;
-  double patience_s = 60;                ///< without a word of progress it counts as hanging
-  std::function<bool()> is_wanted = {};  ///< asked several times a second; once it is false, the work is stopped
+  double patience_s = 60;  ///< without a word of progress it counts as hanging
 };
 
 struct IsolatedEnd {
@@ -48,7 +47,7 @@ struct Isolated {
 using IsolatedWork = std::function<std::string(const TellProgress&)>;
 
 /// As run_isolated; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
-IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress);
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const Watch& watch);
 
 /// Several works, each as by run_isolated_bytes, some at once; what they tell and how they ended is told in the
 /// caller's thread, while it starts the next one or waits. Where there are no processes, one after another.
@@ -63,7 +62,7 @@ class IsolatedPool {
   IsolatedPool& operator=(const IsolatedPool&) = delete;
 
   /// Waits for a place. SystemLimit if the system gives no process.
-  void start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress, const OnEnd& on_end);
+  void start(const IsolatedWork& work, const Isolation& limits, const Watch& watch, const OnEnd& on_end);
   void wait_for_all();
 
  private:
@@ -88,14 +87,14 @@ Isolated<Result> isolated_from(IsolatedEnd end) {
 
 /// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
 /// back as bytes (store/bytes.h). The child prints nothing; it does not see SIGINT, SIGTERM and SIGHUP and is killed
-/// when the parent has got one. `on_progress` is called in the parent. Of several threads only
+/// when the parent has got one, or when the watch, which is asked in the parent, wants that. Of several threads only
 /// the one that calls is there in the child: the work must not need what others may hold, such as an interpreter's
 /// lock.
 template <class Work>
-auto run_isolated(const Work& work, const Isolation& limits, const TellProgress& on_progress) {
+auto run_isolated(const Work& work, const Isolation& limits = {}, const Watch& watch = {}) {
   using Result = std::invoke_result_t<const Work&, const TellProgress&>;
   const auto as_bytes = [&](const TellProgress& report_progress) { return to_bytes(work(report_progress)); };
-  return isolated_from<Result>(run_isolated_bytes(as_bytes, limits, on_progress));
+  return isolated_from<Result>(run_isolated_bytes(as_bytes, limits, watch));
 }
 
 /// What the user is told of a recording whose reading has not finished: one sentence.

@@ -19,23 +19,28 @@ class IsolatedPool::Run {};
 IsolatedPool::IsolatedPool(int at_once) : at_once_(at_once) {}
 IsolatedPool::~IsolatedPool() = default;
 
-void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress,
-                         const OnEnd& on_end) {
-  on_end(run_isolated_bytes(work, limits, on_progress));
+void IsolatedPool::start(const IsolatedWork& work, const Isolation& limits, const Watch& watch, const OnEnd& on_end) {
+  on_end(run_isolated_bytes(work, limits, watch));
 }
 
 void IsolatedPool::wait_for_all() {}
 
-IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const TellProgress& on_progress) {
+IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation&, const Watch& watch) {
   using Kind = IsolatedEnd::Kind;
+  std::exception_ptr thrown;  // by the watch: no matter of the work
   const auto tell = [&](double fraction) {
-    on_progress(fraction);
-    if (stop_wanted() || (limits.is_wanted && !limits.is_wanted())) throw StoppedBySignal{};
+    try {
+      watch.progress(fraction);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    if (thrown || stop_wanted() || watch.stop()) throw StoppedBySignal{};
   };
   const std::scoped_lock alone(turn_of_work());
   try {
     return {Kind::finished, work(tell)};
   } catch (const StoppedBySignal&) {
+    if (thrown) std::rethrow_exception(thrown);
     return {Kind::stopped, {}};
   } catch (const UserError& error) {
     return {Kind::user_error, error.what()};

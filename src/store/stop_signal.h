@@ -18,8 +18,6 @@ const std::atomic<bool>& stop_wanted();
 
 /// Thrown where work ends half done because a signal came.
 struct StoppedBySignal {};
-/// For work that asks from step to step whether it should go on: StoppedBySignal if not.
-void go_on_unless_stopped();
 
 /// The number of the signal that came, 0 if none.
 int signal_received();

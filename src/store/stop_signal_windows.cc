@@ -31,10 +31,6 @@ void watch_signals(SecondSignal second) {
 
 const std::atomic<bool>& stop_wanted() { return wanted; }
 
-void go_on_unless_stopped() {
-  if (wanted) throw StoppedBySignal{};
-}
-
 int signal_received() { return received; }
 
 }  // namespace rheocyte

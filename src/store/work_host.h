@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "store/isolated.h"
-#include "store/progress.h"
 #include "store/scratch.h"
 
 namespace rheocyte {
@@ -41,7 +40,7 @@ class WorkReply {
   /// What may break its process, in another one (run_isolated_bytes): it gives pieces itself and tells its progress.
   /// `file` is what it reads, for the sentence. UserError.
   void run_isolated(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
-                    Isolation limits = {}) const;
+                    const Isolation& limits = {}) const;
 
  private:
   int socket_;
@@ -60,21 +59,14 @@ class HostedWork {
   void ask(const std::string& request) const;
 
   /// Hands on all pieces, until the work is done or `take` returns false. UserError with the sentence of the work
-  /// (SystemLimit if it met one), or because its process broke down.
+  /// (SystemLimit if it met one), because its process broke down, or the watch wanted the end.
   using Take = std::function<bool(std::string_view piece)>;
-  void read(const Take& take, const TellProgress& on_progress = {});
-  /// Asked several times a second while an answer is read, which ends with a UserError once it is false.
-  void only_while(std::function<bool()> is_wanted) { is_wanted_ = std::move(is_wanted); }
-  /// From another thread: whoever reads is told that the process has ended.
-  void stop() const;
+  void read(const Take& take, const Watch& watch = {});
   /// All pieces together.
-  std::string all(const TellProgress& on_progress = {});
+  std::string all(const Watch& watch = {});
 
  private:
-  bool waits_in_vain() const;
-
   int socket_;
-  std::function<bool()> is_wanted_ = {};
 };
 
 class WorkHost {

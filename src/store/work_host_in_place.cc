@@ -27,8 +27,7 @@ struct Task {
   std::deque<std::string> questions = {};  ///< to work that stays
   std::deque<std::string> pieces = {};
   std::exception_ptr failure = {};
-  const std::function<bool()>* is_wanted = nullptr;  ///< of who reads now, as what follows
-  const TellProgress* on_progress = nullptr;
+  const Watch* watch = nullptr;  ///< of who reads now
 };
 
 /// For several threads at once. Nodes of a map stay where they are, also when work asks for work.
@@ -86,13 +85,12 @@ void do_now(int number) {
 void WorkReply::give(std::string_view piece) const { tasks().at(socket_).pieces.emplace_back(piece); }
 
 void WorkReply::report_progress(double fraction) const {
-  const auto* const listener = tasks().at(socket_).on_progress;
-  if (listener && *listener) (*listener)(fraction);
+  if (const Watch* const watch = tasks().at(socket_).watch) watch->progress(fraction);
 }
 
 bool WorkReply::is_wanted() const {
-  const auto* const asker = tasks().at(socket_).is_wanted;
-  return !asker || !*asker || (*asker)();
+  const Watch* const watch = tasks().at(socket_).watch;
+  return !watch || !watch->stop();
 }
 
 void WorkReply::end_answer() const {}
@@ -106,12 +104,9 @@ std::optional<std::string> WorkReply::next_request() const {
   return next;
 }
 
-HostedWork::HostedWork(HostedWork&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1)), is_wanted_(std::move(other.is_wanted_)) {}
+HostedWork::HostedWork(HostedWork&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
 
 HostedWork::~HostedWork() { tasks().remove(socket_); }
-
-void HostedWork::stop() const {}
 
 void HostedWork::ask(const std::string& request) const {
   Task& task = tasks().at(socket_);
@@ -119,13 +114,11 @@ void HostedWork::ask(const std::string& request) const {
   task.is_asked = true;
 }
 
-void HostedWork::read(const Take& take, const TellProgress& on_progress) {
+void HostedWork::read(const Take& take, const Watch& watch) {
   Task& task = tasks().at(socket_);
-  task.is_wanted = &is_wanted_;
-  task.on_progress = &on_progress;
+  task.watch = &watch;
   if (task.is_asked) do_now(socket_);
-  task.on_progress = nullptr;
-  task.is_wanted = nullptr;
+  task.watch = nullptr;
   while (!task.pieces.empty()) {
     const std::string piece = std::move(task.pieces.front());
     task.pieces.pop_front();

@@ -1,5 +1,4 @@
-#include "view/cell_routes.h"
-
+// Cells: POST /api/state and /api/case/..., and what is exported of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,9 +19,10 @@
 #include "store/base64.h"
 #include "store/stop_signal.h"
 #include "view/case_from_json.h"
-#include "view/evolve_route.h"
-#include "view/plane_lines.h"
+#include "view/export_folder.h"
+#include "view/solver_threads.h"
 #include "view/state_json.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -139,27 +139,27 @@ std::filesystem::path export_picture(const Json& wish, const Request&, ExportFol
   return folder.write(name, bytes);
 }
 
-}  // namespace
-
-void add_cell_routes(Router& router, Exports& exports, SolverThreads& threads) {
+void add_cell_routes(const ViewContext& view) {
   constexpr int most = 32;
   const auto under_way =
       std::make_shared<FewAtOnce>(most, "Many cells are being computed already; wait for some of them.");
-  router.add("POST", "/api/state", [&threads, under_way](const Request& request) {
+  view.router.add("POST", "/api/state", [&threads = view.threads, under_way](const Request& request) {
     const FewAtOnce::Turn turn = under_way->begin();
     return state(threads, request);
   });
-  router.add("POST", "/api/case/text",
-             [](const Request& request) { return json_answer(case_as_text(case_from_json(request.json()))); });
-  router.add("POST", "/api/case/read", read_text);
-  add_evolve_route(router);
-  add_plane_lines_route(router);
-  exports.add("case", export_case);
-  exports.add("result", [&threads](const Json& wish, const Request& request, ExportFolder& folder) {
+  view.router.add("POST", "/api/case/text",
+                  [](const Request& request) { return json_answer(case_as_text(case_from_json(request.json()))); });
+  view.router.add("POST", "/api/case/read", read_text);
+  view.exports.add("case", export_case);
+  view.exports.add("result", [&threads = view.threads](const Json& wish, const Request& request, ExportFolder& folder) {
     return export_result(threads, wish, request, folder);
   });
-  exports.add("svg", export_picture);
-  exports.add("png", export_picture);
+  view.exports.add("svg", export_picture);
+  view.exports.add("png", export_picture);
 }
+
+}  // namespace
+
+extern const ViewPart cell_routes{add_cell_routes};
 
 }  // namespace rheocyte

@@ -42,7 +42,7 @@ Json numbers_of(const ModuliEstimate& e) {
 CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
     : table_(table),
       events_(recording, measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
-      moduli_(events_.settings(), {}, table, table.section_of(recording, {})) {
+      moduli_(events_.settings(), {}, table, section_seen({}, events_.facts().made_of, table.content.spec.base)) {
   events_.turn_downstream(table.sign_of_asymmetry());
 }
 

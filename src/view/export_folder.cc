@@ -120,7 +120,7 @@ void Exports::add(std::string what, Export write) { exports_.insert_or_assign(st
 
 void Exports::add_route(Router& router) {
   router.add(
-      "POST", "/api/export", [this](const Request& request) { return answer(request); }, picture_body_limit);
+      "POST", "/api/export", [this](const Request& request) { return answer(request); }, big_body_limit);
 }
 
 Answer Exports::answer(const Request& request) {

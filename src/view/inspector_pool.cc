@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,15 @@ namespace fs = std::filesystem;
 /// Of different recordings; each holds its tables in memory.
 constexpr std::size_t most_kept = 2;
 
+/// A process that stays has all the patience of its host (item_work.cc): silence for so long is no answer any more.
+Watch with_patience() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds patience(100);
+  const auto last_word = std::make_shared<Clock::time_point>(Clock::now());
+  return {.progress = [last_word](double) { *last_word = Clock::now(); },
+          .stop = [last_word, patience] { return Clock::now() - *last_word > patience; }};
+}
+
 /// What the process was begun with: the recording as it is now ("version"), and its tables.
 std::string key_of(const Json& recording) {
   const std::array<fs::path, 2> tables{
@@ -35,7 +45,7 @@ std::string KeptInspectors::inspect(const Json& recording, std::size_t event) {
   const auto ask = [&](Kept& kept) {
     const std::scoped_lock lock(kept.alone);
     kept.work.ask(std::to_string(event));
-    return kept.work.all();
+    return kept.work.all(with_patience());
   };
   if (const auto known = take(key)) try {
       return ask(*known);

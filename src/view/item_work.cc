@@ -14,7 +14,6 @@
 #include "view/event_inspector.h"
 #include "view/moduli_settings.h"
 #include "view/path_text.h"
-#include "view/population_route.h"
 #include "view/recording_columns.h"
 #include "view/recording_lines.h"
 #include "view/recording_moduli.h"
@@ -154,6 +153,16 @@ void add_bulk_cortex_fit(const Json& request, const ExtractOptions& options, con
   }
 }
 
+/// Of the events within the gates alone, which is no matter of a companion.
+void give_report(const Json& request, const WorkReply& reply, const TellProgress& tell) {
+  const fs::path file = path_in(request, "file");
+  ExtractOptions options = options_of_settings(request.at("settings"));
+  options.measuring.gates.events = gate_in(request);
+  const ModulusTables tables(options.table, options.section);
+  check_against_tables(options, tables);
+  reply.give(json_text(moduli_report(file, summary_of_recording(file, options, tables, tell))));
+}
+
 /// The other files that the recording is read from, and what they are now.
 Json basins_of(const fs::path& file) {
   const auto basins = Recording(file).files_of_basins();
@@ -191,34 +200,27 @@ void compute_moduli(const Json& request, const WorkReply& reply) {
   }
 }
 
-using Isolated = void (*)(const Json&, const WorkReply&, const TellProgress&);
-struct Named {
-  const char* name;
-  Isolated work;
-  Isolation limits = {};
-};
 /// Who waits for the next question is silent: the one who asks loses patience with an answer.
-const Isolation stays{.patience_s = 1e9};
-/// Between two signs of life there is the fit of a whole recording.
-const Isolation fits{.patience_s = 600};
-const Named isolated_work[]{{"describe", describe},
-                            {"names", list_columns},
-                            {"columns", give_columns},
-                            {"inspect", inspect_events, stays},
-                            {"picture", give_picture},
-                            {"lines", give_lines},
-                            {"population", compute_population, fits}};
+constexpr double patience_of_those_who_stay_s = 1e9;
 
 }  // namespace
+
+std::vector<ItemWork> work_on_items() {
+  return {{"describe", describe},    {"names", list_columns},
+          {"columns", give_columns}, {"inspect", inspect_events, {.patience_s = patience_of_those_who_stay_s}},
+          {"picture", give_picture}, {"lines", give_lines},
+          {"report", give_report}};
+}
 
 void do_item_work(const std::string& text, const WorkReply& reply) {
   const Json request = parse_sound_json(text);
   const std::string wanted = request.value("do", "");
-  for (const auto& [name, work, limits] : isolated_work)
-    if (wanted == name)
-      return reply.run_isolated(
-          path_in(request, "file"), [&, do_work = work](const TellProgress& tell) { do_work(request, reply, tell); },
-          limits);
+  for (const ViewPart* const part : view_parts())
+    for (const auto& [name, work, limits] : part->item_work)
+      if (wanted == name)
+        return reply.run_isolated(
+            path_in(request, "file"), [&, do_work = work](const TellProgress& tell) { do_work(request, reply, tell); },
+            limits);
   if (wanted == "moduli") return compute_moduli(request, reply);
   throw UserError("There is no such work on an item.");
 }

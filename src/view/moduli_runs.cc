@@ -118,13 +118,12 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
   std::string error;
   try {
     run.version = file_version(run.files);
-    HostedWork work = items_.host().ask(json_text(request));
-    const std::stop_callback at_end(stop, [&work] { work.stop(); });
-    if (client) work.only_while([client] { return !client->has_left(); });
-    report = parse_sound_json(work.all([&run](double done) {
+    const auto progress = [&run](double done) {
       const std::scoped_lock lock(run.mutex);
       run.done = std::max(run.done, done);
-    }));
+    };
+    const auto is_over = [&] { return stop.stop_requested() || (client && client->has_left()); };
+    report = parse_sound_json(items_.host().ask(json_text(request)).all({.progress = progress, .stop = is_over}));
   } catch (const std::exception& reason) {  // also of a system without memory: a thread has nobody to tell
     error = reason.what();
   }

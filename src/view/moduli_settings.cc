@@ -42,10 +42,14 @@ ExtractOptions options_of_settings(const Json& settings) {
   return options;
 }
 
-ExtractOptions extract_options(const Json& settings, const TableItem& table_item) {
-  if (!settings.is_object()) return options_of_settings(settings);
+void refuse_polygon_files(const Json& settings) {
   for (const Json& one : settings.value("polygon", Json::array()))
     if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
+}
+
+ExtractOptions extract_options(const Json& settings, const TableItem& table_item) {
+  if (!settings.is_object()) return options_of_settings(settings);
+  refuse_polygon_files(settings);
   Json resolved = settings;
   if (settings.contains("table") && !settings["table"].is_null())
     resolved["table"] = named_table(settings["table"], table_item);

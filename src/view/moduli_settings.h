@@ -17,6 +17,9 @@ using TableItem = std::function<std::filesystem::path(std::size_t number)>;
 /// UserError naming the setting.
 ExtractOptions extract_options(const nlohmann::ordered_json& settings, const TableItem& table_item);
 
+/// UserError: polygons of a request are features and corners.
+void refuse_polygon_files(const nlohmann::ordered_json& settings);
+
 /// With those of them that `rheocyte moduli` has, too, and a combined table.
 ModuliOptions moduli_options(const ExtractOptions& options, const std::filesystem::path& table);
 

@@ -4,8 +4,8 @@
 
 #include "case/user_error.h"
 #include "report/plot_lines.h"
+#include "view/line_routes.h"
 #include "view/page_words.h"
-#include "view/plane_lines.h"
 
 namespace rheocyte {
 

@@ -1,5 +1,4 @@
-#include "view/recording_routes.h"
-
+// Recordings: /api/items and what is below, and their exports.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -10,11 +9,16 @@
 #include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "serve/json_member.h"
 #include "store/file_version.h"
+#include "view/export_folder.h"
+#include "view/item_work.h"
 #include "view/moduli_runs.h"
+#include "view/moduli_settings.h"
 #include "view/modulus_states.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
+#include "view/view_session.h"
 
 namespace rheocyte {
 
@@ -81,17 +85,19 @@ class RecordingAnswers {
     if (list.empty() || features.size() > most_features)
       throw Refused(400, "input", "features names the columns, one to 64 of them, with commas between them.");
     if (type != "float32" && type != "float64") throw Refused(400, "input", "type is float32 or float64.");
-    const auto work =
-        std::make_shared<HostedWork>(ask_of_item(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
+    const auto work = std::make_shared<HostedWork>(
+        work_on_item(request, {{"do", "columns"}, {"features", features}, {"type", type}}));
     std::string head;
-    work->read([&head](std::string_view piece) {
+    const Watch watch = request.watch();
+    const auto take_head = [&head](std::string_view piece) {
       head = piece;
       return false;
-    });
+    };
+    work->read(take_head, watch);
     Answer answer;
     answer.type = "application/octet-stream";
     answer.headers = {{"X-Rheocyte-Columns", head}};
-    answer.give_pieces = [work](const TakePiece& take) { work->read(take); };
+    answer.give_pieces = [work, watch](const TakePiece& take) { work->read(take, watch); };
     return answer;
   }
 
@@ -108,12 +114,12 @@ class RecordingAnswers {
     if (std::ranges::find(pictures, Json(feature)) == pictures.end())
       throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
     const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
-    return {.type = "image/png", .body = ask_of_item(request, wanted).all()};
+    return {.type = "image/png", .body = work_on_item(request, wanted).all(request.watch())};
   }
 
   Answer lines(const Request& request) const {
     const Json wanted{{"do", "lines"}, {"x", request.asked("x", "area_um")}, {"y", request.asked("y", "deform")}};
-    return {.body = ask_of_item(request, wanted).all()};
+    return {.body = work_on_item(request, wanted).all(request.watch())};
   }
 
   Answer start_moduli(const Request& request) {
@@ -128,6 +134,20 @@ class RecordingAnswers {
     return moduli(request);
   }
 
+  /// Of the events within gates alone, with the settings of the item's moduli.
+  Answer report(const Request& request) const {
+    if (runs_.companion(request.number("item")).empty())
+      throw Refused(409, "changed", "There are no moduli of the recording as it is now; compute them first.");
+    const Json asked = request.json();
+    Json wanted = recording_in(request);
+    wanted["do"] = "report";
+    for (const char* name : {"min", "max", "polygon"})
+      for (const Json& gate : list_member(asked, name)) wanted["settings"][name].push_back(gate);
+    refuse_polygon_files(wanted["settings"]);
+    take_gate(asked, wanted);
+    return {.body = ask(wanted).all(request.watch())};
+  }
+
   Json kept_moduli() const { return runs_.kept(); }
   void restore_moduli(const Json& kept) { runs_.restore(kept); }
 
@@ -136,7 +156,7 @@ class RecordingAnswers {
     Json wanted = export_request(wish);
     ExportPlace place = folder.claim(file_name(wish, ".rtdc"));
     wanted["companion"] = path_text(place.scratch());
-    static_cast<void>(ask(request, wanted).all());
+    static_cast<void>(ask(wanted).all(request.watch()));
     place.publish();
     return place.path();
   }
@@ -150,24 +170,19 @@ class RecordingAnswers {
     const bool is_gated = wanted.contains("gate");
     if (!is_gated) wanted["events"] = path_text(place.scratch());
     if (is_gated) wanted["events_of_gate"] = path_text(place.scratch());
-    static_cast<void>(ask(request, wanted).all());
+    static_cast<void>(ask(wanted).all(request.watch()));
     place.publish();
     return place.path();
   }
 
  private:
   /// The work on the item of a request, with what has been computed from it.
-  HostedWork ask_of_item(const Request& request, Json wanted) const {
+  HostedWork work_on_item(const Request& request, Json wanted) const {
     wanted.update(recording_in(request));
-    return ask(request, wanted);
+    return ask(wanted);
   }
 
-  /// Ends once the client of the request has left.
-  HostedWork ask(const Request& request, const Json& wanted) const {
-    HostedWork work = items_.host().ask(json_text(wanted));
-    work.only_while([client = request.client] { return !client || !client->has_left(); });
-    return work;
-  }
+  HostedWork ask(const Json& wanted) const { return items_.host().ask(json_text(wanted)); }
 
   Json recording_in(const Request& request) const {
     const std::size_t number = request.number("item");
@@ -187,12 +202,16 @@ class RecordingAnswers {
     if (request.contains("version") && request["version"] != file_version(found.files))
       throw Refused(409, "changed", "The recording has changed since its events were read; read them again.");
     Json wanted{{"do", "moduli"}, {"file", path_text(found.place.path)}, {"settings", runs_.settings(number)}};
-    if (!request.contains("gate") || request["gate"].is_null()) return wanted;
+    take_gate(request, wanted);
+    return wanted;
+  }
+
+  static void take_gate(const Json& request, Json& wanted) {
+    if (!request.contains("gate") || request["gate"].is_null()) return;
     const Json& gate = request["gate"];
     if (!gate.is_array() || !std::ranges::all_of(gate, [](const Json& one) { return one.is_number_unsigned(); }))
       throw Refused(400, "input", "gate is a list of the numbers of events, counted from 0, or null.");
     wanted["gate"] = gate;
-    return wanted;
   }
 
   static std::string file_name(const Json& request, std::string_view ending) {
@@ -206,35 +225,42 @@ class RecordingAnswers {
   ModuliRuns runs_;
 };
 
-}  // namespace
-
-void add_recording_routes(Router& router, Exports& exports, ViewSession& session, ViewItems& items) {
-  const auto answers = std::make_shared<RecordingAnswers>(items);
+void add_recording_routes(const ViewContext& view) {
+  const auto answers = std::make_shared<RecordingAnswers>(view.items);
   const auto add = [&](std::string_view method, std::string_view pattern, auto answer) {
-    router.add(method, pattern, [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
+    view.router.add(method, pattern,
+                    [answers, answer](const Request& request) { return ((*answers).*answer)(request); });
   };
-  router.add("GET", "/api/states", [](const Request&) { return json_answer(modulus_states()); });
-  router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
+  view.router.add("GET", "/api/states", [](const Request&) { return json_answer(modulus_states()); });
+  view.router.add("GET", "/api/items", [answers](const Request&) { return answers->list(); });
   add("GET", "/api/items/{item}", &RecordingAnswers::item);
   add("PATCH", "/api/items/{item}", &RecordingAnswers::label);
   add("GET", "/api/items/{item}/events", &RecordingAnswers::columns);
   add("GET", "/api/items/{item}/events/{event}", &RecordingAnswers::event);
   for (const std::string feature : {"image", "mask"})
-    router.add("GET", "/api/items/{item}/events/{event}/" + feature,
-               [answers, feature](const Request& request) { return answers->picture(request, feature); });
+    view.router.add("GET", "/api/items/{item}/events/{event}/" + feature,
+                    [answers, feature](const Request& request) { return answers->picture(request, feature); });
   add("GET", "/api/items/{item}/lines", &RecordingAnswers::lines);
   add("POST", "/api/items/{item}/moduli", &RecordingAnswers::start_moduli);
   add("GET", "/api/items/{item}/moduli", &RecordingAnswers::moduli);
   add("DELETE", "/api/items/{item}/moduli", &RecordingAnswers::stop_moduli);
-  exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+  view.router.add(
+      "POST", "/api/items/{item}/report", [answers](const Request& request) { return answers->report(request); },
+      big_body_limit);
+  view.exports.add("companion", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
     return answers->write_companion(wish, request, folder);
   });
-  exports.add("events", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
+  view.exports.add("events", [answers](const Json& wish, const Request& request, ExportFolder& folder) {
     return answers->write_events(wish, request, folder);
   });
-  session.add({"items", [&items] { return items.kept(); }, [&items](const Json& kept) { items.restore(kept); }});
-  session.add({"moduli", [answers] { return answers->kept_moduli(); },
-               [answers](const Json& kept) { answers->restore_moduli(kept); }});
+  view.session.add({"items", [&items = view.items] { return items.kept(); },
+                    [&items = view.items](const Json& kept) { items.restore(kept); }});
+  view.session.add({"moduli", [answers] { return answers->kept_moduli(); },
+                    [answers](const Json& kept) { answers->restore_moduli(kept); }});
 }
+
+}  // namespace
+
+extern const ViewPart recording_routes{add_recording_routes, work_on_items()};
 
 }  // namespace rheocyte

@@ -96,8 +96,7 @@ void ViewItems::describe(std::size_t number, const std::stop_token& stop) {
   try {
     const Json request{{"do", "describe"}, {"kind", name_of(place.kind)}, {"file", path_text(place.path)}};
     HostedWork work = host_.ask(json_text(request));
-    const std::stop_callback at_end(stop, [&work] { work.stop(); });
-    item.description = parse_sound_json(work.all());
+    item.description = parse_sound_json(work.all({.stop = [&stop] { return stop.stop_requested(); }}));
     take_basins(item);
   } catch (const UserError& reason) {
     item.state = State::failed;

@@ -4,12 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "store/thread.h"
-#include "view/cell_routes.h"
-#include "view/declarations.h"
 #include "view/page_words.h"
 #include "view/path_text.h"
-#include "view/population_route.h"
-#include "view/recording_routes.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -33,10 +30,7 @@ ViewRoutes::ViewRoutes(std::span<const fs::path> paths, const fs::path& output)
       folder_(output),
       threads_(processors(), session_bytes),
       router_(in_words_of_page) {
-  add_declaration_routes(router_);
-  add_cell_routes(router_, exports_, threads_);
-  add_recording_routes(router_, exports_, session_, items_);
-  add_population_route(router_, items_);
+  for (const ViewPart* const part : view_parts()) part->add_routes({router_, exports_, session_, items_, threads_});
   session_.add_routes(router_, exports_);
   exports_.add_route(router_);
   for (const fs::path& path : paths)

@@ -13,7 +13,7 @@ namespace {
 constexpr double pixel_um = 0.34;
 
 /// Of one law but for the median of their stiffness, as the table and its straight continuation have them.
-class CellsOfStiffness : public ::testing::Test {
+class CellsOfStiffnessInMemory : public ::testing::Test {
  protected:
   RecordingReport fitted(double stiffness_kPa) {
     CombinedLaw law;
@@ -68,14 +68,14 @@ class CellsOfStiffness : public ::testing::Test {
   }()};
 };
 
-TEST_F(CellsOfStiffness, WithinTheTableAreAllFittedThere) {
+TEST_F(CellsOfStiffnessInMemory, WithinTheTableAreAllFittedThere) {
   const RecordingReport report = fitted(3.5);
   EXPECT_TRUE(report.failure.empty()) << report.failure;
   EXPECT_LT(report.beyond.on(TableSide::softer) + report.beyond.on(TableSide::longer), report.seen_events() / 100);
 }
 
 /// Three standard errors of the events.
-TEST_F(CellsOfStiffness, SofterThanTheTableCountOnTheirSide) {
+TEST_F(CellsOfStiffnessInMemory, SofterThanTheTableCountOnTheirSide) {
   const RecordingReport report = fitted(2);
   EXPECT_TRUE(report.failure.empty()) << report.failure;
   EXPECT_GT(report.beyond.on(TableSide::softer), report.seen_events() / 50);
@@ -90,7 +90,7 @@ TEST_F(CellsOfStiffness, SofterThanTheTableCountOnTheirSide) {
 }
 
 /// The bound holds, and is not beyond the stiffness of which a tenth are softer.
-TEST_F(CellsOfStiffness, MostlySofterThanTheTableHaveABoundAndNoNumber) {
+TEST_F(CellsOfStiffnessInMemory, MostlySofterThanTheTableHaveABoundAndNoNumber) {
   const RecordingReport report = fitted(1.15);
   EXPECT_NE(report.failure.find(" are softer"), std::string::npos) << report.failure;
   EXPECT_NE(report.failure.find("the median of E + E2D/r0 is below"), std::string::npos) << report.failure;

@@ -19,13 +19,13 @@ namespace {
 using Kind = IsolatedEnd::Kind;
 
 IsolatedEnd end_of(const std::function<std::string(const TellProgress&)>& work, const Isolation& limits = {}) {
-  return run_isolated(work, limits, [](double) {}).end;
+  return run_isolated(work, limits).end;
 }
 
 TEST(Isolated, TheResultComesBackWhole) {
   const std::string text(50'000'000, 'x');  // as of the numbers of half a million events
   const auto work = [&](const TellProgress&) { return std::vector<std::string>{text, "", "more"}; };
-  const auto done = run_isolated(work, {}, [](double) {});
+  const auto done = run_isolated(work);
   ASSERT_TRUE(done.finished());
   EXPECT_EQ(done.result, work({}));
 }
@@ -46,7 +46,7 @@ TEST(Isolated, SeveralAtOnceEndEachByItself) {
           }
           return std::string(100'000, char('a' + i));  // more than a pipe holds
         },
-        {}, [&told, i](double fraction) { told[i] = fraction; },
+        {}, {.progress = [&told, i](double fraction) { told[i] = fraction; }},
         [&ends, i](const IsolatedEnd& end) {
           EXPECT_TRUE(ends[i].empty());
           ends[i] = end.kind == Kind::broke_down ? "broken" : end.text;
@@ -66,9 +66,20 @@ TEST(Isolated, ProgressIsToldInOrder) {
         for (int i = 0; i < 100; ++i) tell(0.01 * i);
         return std::string();
       },
-      {}, [&](double fraction) { told.push_back(fraction); });
+      {}, {.progress = [&](double fraction) { told.push_back(fraction); }});
   ASSERT_EQ(told.size(), 100U);
   EXPECT_EQ(told.back(), 0.99);
+}
+
+TEST(Isolated, TheWatchEndsItAndWhatItThrowsComesThrough) {
+  const auto hangs = [](const TellProgress& tell) -> std::string {
+    for (;;) tell(0.5);
+  };
+  bool is_told = false;
+  const Watch until_told{.progress = [&](double) { is_told = true; }, .stop = [&] { return is_told; }};
+  EXPECT_TRUE(run_isolated(hangs, {}, until_told).stopped());
+  EXPECT_THROW(run_isolated(hangs, {}, {.progress = [](double) { throw std::out_of_range("half"); }}),
+               std::out_of_range);
 }
 
 TEST(Isolated, ErrorsComeBackAsWhatTheyAre) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -51,7 +52,8 @@ TEST(WorkHost, AnswersEachOfManyThreadsWithWhatItAskedFor) {
     threads.emplace_back([&host, name] {
       const std::string request(300'000, name);  // several packets
       double progress = 0;
-      EXPECT_EQ(host.ask(request).all([&progress](double fraction) { progress = fraction; }), request + "!");
+      EXPECT_EQ(host.ask(request).all({.progress = [&progress](double fraction) { progress = fraction; }}),
+                request + "!");
       EXPECT_EQ(progress, 0.5);
     });
   for (auto& thread : threads) thread.join();
@@ -80,8 +82,8 @@ TEST(WorkHost, EndsWorkForWhichNobodyWaitsAnyMore) {
   });
   HostedWork work = host.ask("");
   bool has_begun = false;
-  work.only_while([&has_begun] { return !has_begun; });
-  EXPECT_THROW(work.read([&has_begun](std::string_view) { return has_begun = true; }), UserError);
+  const auto take = [&has_begun](std::string_view) { return has_begun = true; };
+  EXPECT_THROW(work.read(take, {.stop = [&has_begun] { return has_begun; }}), UserError);
 }
 
 TEST(WorkHost, TellsWhyWorkHasFailed) {
@@ -169,9 +171,9 @@ TEST(WorkHost, EndsAReaderFromAnotherThread) {
       for (;;) ::pause();
     });
   });
-  HostedWork work = host.ask("wait");
-  std::thread stopper([&work] { work.stop(); });
-  EXPECT_THROW(static_cast<void>(work.all()), UserError);
+  std::atomic<bool> is_over = false;
+  std::thread stopper([&is_over] { is_over = true; });
+  EXPECT_THROW(static_cast<void>(host.ask("wait").all({.stop = [&is_over] { return is_over.load(); }})), UserError);
   stopper.join();
 }
 

@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "store/base64.h"
-#include "view/cell_routes.h"
-#include "view/view_session.h"
+#include "view/view_routes.h"
 
 namespace rheocyte::cell_requests {
 
@@ -25,15 +24,10 @@ using Json = nlohmann::ordered_json;
 /// The interface on a folder of its own.
 class CellRequests : public testing::Test {
  protected:
-  CellRequests() {
-    add_cell_routes(router_, exports_, threads_);
-    session_.add_routes(router_, exports_);
-    exports_.add_route(router_);
-  }
-  ~CellRequests() override { fs::remove_all(folder_.path()); }
+  ~CellRequests() override { fs::remove_all(folder_); }
 
   Answer post(std::string path, const Json& body, Request::Names query = {}, std::string method = "POST") {
-    return router_.answer(
+    return routes_.router().answer(
         {.method = std::move(method), .path = std::move(path), .query = std::move(query), .body = body.dump()});
   }
   Json json(std::string path, const Json& body, Request::Names query = {}) {
@@ -45,11 +39,8 @@ class CellRequests : public testing::Test {
     return ::mkdtemp(pattern.data());
   }
 
-  ExportFolder folder_{new_folder()};
-  Router router_;
-  Exports exports_{folder_};
-  ViewSession session_;
-  SolverThreads threads_{2, std::size_t(32) << 20};
+  fs::path folder_ = new_folder();
+  ViewRoutes routes_{{}, folder_};
 };
 
 /// The lines of an answer that comes in pieces.

@@ -1,6 +1,4 @@
 // States, fields, ways in time, cases as text, exports and sessions, as a page or a script gets them.
-#include "view/cell_routes.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -200,7 +198,7 @@ TEST_F(CellRoutes, AWrongCaseIsRefusedWithItsKey) {
   EXPECT_EQ(json("/api/state", wrong)["key"], "flow.viscosity_mPas");
   wrong["flow"]["viscosity_mPas"] = true;
   EXPECT_EQ(json("/api/state", wrong)["key"], "flow.viscosity_mPas");
-  EXPECT_EQ(router_.answer({.method = "POST", .path = "/api/state", .body = "[1,"}).status, 400);
+  EXPECT_EQ(routes_.router().answer({.method = "POST", .path = "/api/state", .body = "[1,"}).status, 400);
   Json in_time = cell();
   in_time["time"]["end_us"] = 100;
   in_time["cell"]["viscosity_mPas"] = 15;
@@ -246,10 +244,10 @@ TEST_F(CellRoutes, AWayInTimeComesLineByLine) {
 TEST_F(CellRoutes, ExportsGoIntoTheFolderAndOverNothingForeign) {
   const Json wish{{"what", "case"}, {"case", cell()}, {"name", "mine.toml"}};
   const fs::path file = json("/api/export", wish)["file"].get<std::string>();
-  EXPECT_EQ(file, folder_.path() / "mine.toml");
+  EXPECT_EQ(file, folder_ / "mine.toml");
   EXPECT_FALSE(ViewSession::is_session(file));
   EXPECT_EQ(post("/api/export", wish).status, 200);  // its own file
-  std::ofstream(folder_.path() / "foreign.toml") << "kept";
+  std::ofstream(folder_ / "foreign.toml") << "kept";
   Json other = wish;
   other["name"] = "foreign.toml";
   EXPECT_EQ(post("/api/export", other).status, 409);
@@ -263,16 +261,16 @@ TEST_F(CellRoutes, ExportsGoIntoTheFolderAndOverNothingForeign) {
 TEST_F(CellRoutes, AnExportDoesNotReplaceWhatOthersHaveWrittenMeanwhile) {
   Json wish{{"what", "case"}, {"case", cell()}, {"name", "mine.toml"}};
   ASSERT_EQ(post("/api/export", wish).status, 200);
-  std::ofstream(folder_.path() / "mine.toml") << "edited by hand";
+  std::ofstream(folder_ / "mine.toml") << "edited by hand";
   EXPECT_EQ(post("/api/export", wish).status, 409);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "nothing hidden is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing hidden is left";
   const Json result{{"what", "result"}, {"case", cell()}, {"name", "both"}};
   ASSERT_EQ(post("/api/export", result).status, 200);
   wish["name"] = "both";
   EXPECT_EQ(post("/api/export", wish).status, 409) << "a folder stands there";
   EXPECT_EQ(post("/api/export", result).status, 200) << "its own";
-  fs::remove_all(folder_.path() / "both");
-  fs::create_directory(folder_.path() / "both");
+  fs::remove_all(folder_ / "both");
+  fs::create_directory(folder_ / "both");
   EXPECT_EQ(post("/api/export", result).status, 409) << "somebody else's";
 }
 
@@ -281,9 +279,10 @@ TEST_F(CellRoutes, AnExportEndsWhenItsClientHasLeft) {
     bool has_left() const override { return true; }
   } const left;
   const Json wish{{"what", "result"}, {"case", cell()}, {"name", "in vain"}};
-  const Answer answer = router_.answer({.method = "POST", .path = "/api/export", .body = wish.dump(), .client = &left});
+  const Answer answer =
+      routes_.router().answer({.method = "POST", .path = "/api/export", .body = wish.dump(), .client = &left});
   EXPECT_EQ(answer.status, 503) << answer.body;
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(CellRoutes, AnExportedResultHasTheFilesAndDigitsOfSolve) {
@@ -310,13 +309,10 @@ TEST_F(CellRoutes, ASessionReadsBackWhateverStandsInIt) {
   const Json page{{"tricky", "it's '''quoted''' \\ \"twice\" \n\u00b5 [[[{{{ \u4f60"}, {"list", {1, nullptr, 2.5}}};
   EXPECT_EQ(post("/api/session", {{"page", page}}, {}, "PUT").status, 200);
   const fs::path file = json("/api/export", {{"what", "session"}, {"name", "session.toml"}})["file"].get<std::string>();
-  ViewSession other;
-  Router router;
-  Exports exports(folder_);
-  other.add_routes(router, exports);
+  EXPECT_EQ(post("/api/session", {{"page", {{"other", 1}}}}, {}, "PUT").status, 200);
   EXPECT_TRUE(ViewSession::is_session(file));
-  other.read(file);
-  EXPECT_EQ(Json::parse(router.answer({.method = "GET", .path = "/api/session"}).body)["page"], page);
+  routes_.open(file);
+  EXPECT_EQ(Json::parse(post("/api/session", {}, {}, "GET").body)["page"], page);
   EXPECT_EQ(post("/api/session", Json::object(), {}, "PUT").status, 400);
 }
 

@@ -1,115 +1,16 @@
 // Items and events by requests: what recordings hold comes back number for number.
-#include "view/recording_routes.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <sstream>
-#include <thread>
 
-#include "case/json_guard.h"
 #include "infer/modulus_state.h"
-#include "measurement/recording_writer.h"
-#include "report/extract_recording.h"
+#include "recording_requests.h"
 #include "store/file_version.h"
-#include "view/view_items.h"
-#include "virtual_cells.h"
 
-namespace rheocyte::recording_routes_test {
+namespace rheocyte::recording_requests {
 namespace {
 
-namespace fs = std::filesystem;
-using test::RecordingWriter;
-using Json = nlohmann::ordered_json;
-
-/// A server's insides without a server.
-class RecordingRoutes : public testing::Test {
- protected:
-  void open(const std::string& name, const std::function<void(RecordingWriter&)>& fill) {
-    {
-      RecordingWriter writer(folder_ / name);
-      test::write_usual_metadata(writer);
-      fill(writer);
-    }
-    open(folder_ / name);
-  }
-  void open_virtual_cells(int cells) {
-    test::write_virtual_cells(folder_ / "cells.rtdc", cells);
-    open(folder_ / "cells.rtdc");
-  }
-  /// Other cells in the place of those of a file, which is written into.
-  void write_over(const std::string& name, int cells, int seed) {
-    test::write_virtual_cells(folder_ / "others.rtdc", cells, seed);
-    fs::rename(folder_ / "others.rtdc", folder_ / name);  // one that is open in this process cannot be written anew
-  }
-  void wait_until_described() const {
-    for (int round = 0; round < 3000 && json("GET", "/api/items")[0]["state"] == "loading"; ++round)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  void open(const fs::path& file) {
-    const std::array<fs::path, 1> paths{file};
-    items_.emplace(paths);
-    add_recording_routes(router_, exports_, session_, *items_);
-    exports_.add_route(router_);
-  }
-
-  Answer ask(const std::string& method, const std::string& path, Request::Names query = {},
-             const std::string& body = {}) const {
-    Request request;
-    request.method = method;
-    request.path = path;
-    request.query = std::move(query);
-    request.body = body;
-    return router_.answer(request);
-  }
-  static std::string bytes_of(const Answer& answer) {
-    std::string bytes;
-    answer.give_pieces([&](std::string_view piece) {
-      bytes += piece;
-      return true;
-    });
-    return bytes;
-  }
-
-  Json json(const std::string& method, const std::string& path, const std::string& body = {}) const {
-    return parse_sound_json(ask(method, path, {}, body).body);
-  }
-  /// Once it no longer runs.
-  Json moduli(const Json& settings) const {
-    const Answer started = ask("POST", "/api/items/0/moduli", {}, json_text(settings));
-    EXPECT_EQ(started.status, 202) << started.body;
-    Json state;
-    for (int round = 0; round < 3000; ++round) {
-      state = json("GET", "/api/items/0/moduli");
-      if (state["state"] != "running") break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return state;
-  }
-  Json exported(const std::string& what, const std::string& name, const Json& gate = nullptr) const {
-    return json("POST", "/api/export", json_text({{"what", what}, {"item", 0}, {"name", name}, {"gate", gate}}));
-  }
-
-  test::ScratchFolder folder_;
-  ExportFolder out_{folder_ / "out"};
-  Exports exports_{out_};
-  ViewSession session_;
-  std::optional<ViewItems> items_;
-  Router router_;
-};
-
-template <class Number>
-std::vector<Number> numbers_in(const std::string& bytes) {
-  std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
-  return numbers;
-}
+class RecordingRoutes : public RecordingRequests {};
 
 TEST_F(RecordingRoutes, EachStateOfAModulusIsNamedAndAllButAValidOneAreExplained) {
   open_virtual_cells(1);
@@ -172,73 +73,6 @@ TEST_F(RecordingRoutes, RefuseWhatIsNotThereWithASentence) {
   refusal("/api/items/0/events", {{"features", "area_um"}}, 400, "no such file");
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<double> column(const fs::path& file, const std::string& feature) {
-  const Recording recording(file);
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
-
-void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0) << "to the last bit, NaN included";
-}
-
-/// What `rheocyte extract` writes.
-ExtractSummary extract(const fs::path& file, const ExtractOutput& output, const ExtractOptions& options = {}) {
-  ExtractFiles files(output, true);
-  const auto summary = extract_recording(file, files, options, ModulusTables(options.table), [](double) {});
-  files.publish();
-  return summary;
-}
-
-TEST_F(RecordingRoutes, GiveTheModuliOfExtractAsFeatures) {
-  open_virtual_cells(50);
-  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "none");
-  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
-  const Json state = moduli({{"temperature", 23}});
-  ASSERT_EQ(state["state"], "ready") << state;
-  EXPECT_NE(state["command"].get<std::string>().find("--temperature 23"), std::string::npos);
-  ExtractOptions options;
-  options.measuring.temperature = "23";
-  const auto summary = extract(folder_ / "cells.rtdc", {folder_ / "want.rtdc", folder_ / "want.tsv"}, options);
-  EXPECT_EQ(state["summary"]["valid"], summary.counts[0]);
-  EXPECT_EQ(state["lines"][0], in_one_line(summary));
-  const Json item = json("GET", "/api/items/0");
-  for (const char* name :
-       {"emodulus", "state", "young_modulus_kPa_error", "young_modulus_asymmetry_kPa", "shape_excess"})
-    EXPECT_NE(std::ranges::find(item["features"], name), item["features"].end()) << name;
-  const auto numbers = numbers_in<double>(
-      bytes_of(ask("GET", "/api/items/0/events", {{"features", "emodulus,state"}, {"type", "float64"}})));
-  const auto half = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  expect_same({numbers.begin(), half}, column(folder_ / "want.rtdc", "emodulus"));
-  const Recording want(folder_ / "want.rtdc");
-  const std::string state_feature = want.metadata().text("user:rheocyte state").value();
-  expect_same({half, numbers.end()}, column(folder_ / "want.rtdc", state_feature));
-  EXPECT_EQ(json("DELETE", "/api/items/0/moduli")["state"], "none");
-  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
-}
-
-TEST_F(RecordingRoutes, TellWhatIsWrongWithModuli) {
-  open("a.rtdc", [](RecordingWriter& writer) { writer.scalar("area_um", {80, 90}); });
-  const Json state = moduli(Json::object());
-  EXPECT_EQ(state["state"], "failed");
-  EXPECT_NE(state["error"].get<std::string>().find("has neither deform"), std::string::npos) << state;
-  EXPECT_EQ(ask("POST", "/api/items/0/moduli", {}, R"({"table": "/etc/passwd"})").status, 400);
-}
-
-TEST_F(RecordingRoutes, StopModuliWhenTheyAreAskedTo) {
-  open_virtual_cells(400);
-  ASSERT_EQ(ask("POST", "/api/items/0/moduli", {}, "{}").status, 202);
-  EXPECT_EQ(json("DELETE", "/api/items/0/moduli")["state"], "none") << "and it does not wait for them";
-  EXPECT_EQ(moduli(Json::object())["state"], "ready");
-}
-
 TEST_F(RecordingRoutes, GiveEventsPicturesAndLines) {
   open_virtual_cells(20);
   const Json event = json("GET", "/api/items/0/events/3");
@@ -257,44 +91,6 @@ TEST_F(RecordingRoutes, GiveEventsPicturesAndLines) {
   EXPECT_TRUE(parse_sound_json(others.body)["lines"].empty());
 }
 
-TEST_F(RecordingRoutes, TellAnEventFromTheFileAndTheModuliAsTheyAreNow) {
-  open_virtual_cells(20);
-  const Json before = json("GET", "/api/items/0/events/3");
-  EXPECT_EQ(json("GET", "/api/items/0/events/3"), before);
-  ASSERT_EQ(moduli({{"viscosity_mPas", 30}})["state"], "ready");
-  const Json after = json("GET", "/api/items/0/events/3");
-  EXPECT_GT(after["young_modulus_kPa"].get<double>(), before["young_modulus_kPa"].get<double>());
-  EXPECT_EQ(after["features"]["emodulus"].get<float>(), after["young_modulus_kPa"].get<float>());
-  write_over("cells.rtdc", 10, 1);
-  EXPECT_EQ(ask("GET", "/api/items/0/events/15").status, 400);
-}
-
-TEST_F(RecordingRoutes, HaveNoModuliOfARecordingThatHasChanged) {
-  open_virtual_cells(20);
-  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
-  EXPECT_EQ(json("GET", "/api/items/0/events/3")["features"].contains("emodulus"), true);
-  write_over("cells.rtdc", 20, 31);
-  const Json state = json("GET", "/api/items/0/moduli");
-  EXPECT_EQ(state["state"], "failed");
-  EXPECT_NE(state["error"].get<std::string>().find("has changed since"), std::string::npos) << state;
-  EXPECT_FALSE(state.contains("summary"));
-  EXPECT_EQ(state["settings"]["temperature"], "23") << "for lines and single events";
-  EXPECT_FALSE(json("GET", "/api/items")[0].contains("counts"));
-  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
-  EXPECT_FALSE(json("GET", "/api/items/0/events/3")["features"].contains("emodulus"));
-  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
-  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 200);
-}
-
-TEST_F(RecordingRoutes, HaveNoModuliOnceABasinHasChanged) {
-  test::write_virtual_cells(folder_ / "cells.rtdc", 20);
-  extract(folder_ / "cells.rtdc", {folder_ / "other_rheocyte.rtdc", folder_ / "other.tsv"});
-  open(folder_ / "other_rheocyte.rtdc");
-  ASSERT_EQ(moduli(Json::object())["state"], "ready");
-  write_over("cells.rtdc", 20, 31);
-  EXPECT_EQ(json("GET", "/api/items/0/moduli")["state"], "failed");
-}
-
 TEST_F(RecordingRoutes, RefuseToExportTheGateOfARecordingThatHasChangedSince) {
   open_virtual_cells(20);
   const std::string before = file_version(folder_ / "cells.rtdc");
@@ -305,47 +101,6 @@ TEST_F(RecordingRoutes, RefuseToExportTheGateOfARecordingThatHasChangedSince) {
   EXPECT_EQ(status("before.tsv"), 200);
   write_over("cells.rtdc", 20, 31);
   EXPECT_EQ(status("after.tsv"), 409);
-}
-
-TEST_F(RecordingRoutes, KeepAStoredModulusApartFromTheComputedOneAndOfferNoNumbersOfBasins) {
-  open("a.rtdc", [](RecordingWriter& writer) {
-    writer.scalar("area_um", {80, 90, 100});
-    writer.scalar("deform", {0.02, 0.03, 0.04});
-    writer.scalar("emodulus", {1.5, 1.25, 1});
-    writer.scalar("basinmap0", {4, 5, 6});
-  });
-  const auto offers = [&](const char* name) {
-    const Json features = json("GET", "/api/items/0")["features"];
-    return std::ranges::find(features, name) != features.end();
-  };
-  const auto first = [&](const char* name) {
-    return numbers_in<double>(
-        bytes_of(ask("GET", "/api/items/0/events", {{"features", name}, {"type", "float64"}})))[0];
-  };
-  wait_until_described();
-  EXPECT_TRUE(offers("emodulus_stored"));
-  EXPECT_FALSE(offers("emodulus") || offers("basinmap0"));
-  EXPECT_EQ(first("emodulus_stored"), 1.5);
-  EXPECT_EQ(ask("GET", "/api/items/0/events", {{"features", "emodulus"}}).status, 400);
-  ASSERT_EQ(moduli({{"temperature", 23}})["state"], "ready");
-  EXPECT_TRUE(offers("emodulus"));
-  EXPECT_EQ(first("emodulus_stored"), 1.5);
-  EXPECT_NE(first("emodulus"), 1.5);
-}
-
-TEST_F(RecordingRoutes, ASessionComputesItsModuliAgain) {
-  open_virtual_cells(20);
-  const Json first = moduli({{"viscosity_mPas", 30}});
-  ASSERT_EQ(first["state"], "ready") << first;
-  const fs::path file = folder_ / "session.toml";
-  std::ofstream(file) << session_.text();
-  ASSERT_EQ(ask("DELETE", "/api/items/0/moduli").status, 200);
-  session_.read(file);
-  Json again;
-  do again = json("GET", "/api/items/0/moduli");
-  while (again["state"] == "running");
-  EXPECT_EQ(again["summary"], first["summary"]);
-  EXPECT_EQ(again["command"], first["command"]);
 }
 
 TEST_F(RecordingRoutes, ExportWhatExtractWrites) {
@@ -396,4 +151,4 @@ TEST_F(RecordingRoutes, ExportNothingOutsideTheFolderAndNothingOverOthers) {
 }
 
 }  // namespace
-}  // namespace rheocyte::recording_routes_test
+}  // namespace rheocyte::recording_requests

@@ -5,8 +5,8 @@ import { useStore } from '../shell/store';
 import { statisticsOf } from './analysis';
 import { isYoungModulus, labelOf, nameOf, unitOf } from './features';
 import { gates } from './model';
-import { moduli } from './moduli';
 import { meanRecommended, recommendedOf } from './recommended';
+import { reports } from './reports';
 import type { Interval } from './statistics';
 import { byCondition } from './violins';
 
@@ -25,7 +25,7 @@ function Mean({ title, mean, unit, none }: { title: string; mean: Interval; unit
 
 /** Of the recommended moduli of a condition's recordings; says how many have none. */
 export function RecommendedMean({ of, title }: { of: Item[]; title: string }) {
-  const runs = useStore(moduli);
+  const runs = useStore(reports);
   const found = of.map(({ item, replicate }) => ({ replicate, found: recommendedOf(runs[item]) }));
   const without = found.filter(({ found: one }) => !one || !Number.isFinite(one.value)).length;
   return <Mean title={title} mean={meanRecommended(found)} unit="kPa" none={`none (${without} of ${of.length} without)`} />;

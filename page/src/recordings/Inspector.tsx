@@ -9,8 +9,9 @@ import { TypedInput } from '../shell/TypedInput';
 import { nameOf, unitOf } from './features';
 import { EventImage } from './EventImage';
 import { choice, focus, itemOf, items, readRecordings, titleOf, type Choice } from './model';
-import { moduli, moduliVersion } from './moduli';
+import { moduliVersion } from './moduli';
 import { recommendedOf } from './recommended';
+import { reports } from './reports';
 import { ResidualPlot } from './ResidualPlot';
 import { counted } from './scale';
 
@@ -95,7 +96,7 @@ function Headline({ detail, by }: { detail: EventDetail; by: string }) {
 
 function Modulus({ detail, item }: { detail: EventDetail; item: number }) {
   const value = detail.young_modulus_kPa;
-  const recommended = recommendedOf(useStore(moduli)[item]);
+  const recommended = recommendedOf(useStore(reports)[item]);
   return (
     <div class="modulus">
       <Headline detail={detail} by={recommended?.by ?? ''} />

@@ -8,6 +8,7 @@ import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
 import { inShort, recommendedOf, type Recommended } from './recommended';
+import { reports } from './reports';
 import { SettingFields } from './SettingFields';
 import { declared, fieldsOf, typing } from './settings';
 
@@ -71,13 +72,13 @@ function Run() {
   );
 }
 
-/** The number to report, or why there is none; why this one stands with all that the moduli rest on. */
-function ToReport({ of }: { of: Recommended }) {
-  const short = inShort(of);
+/** Of the events within the gates: the number to report, or why there is none; why this one stands with all that the moduli rest on. */
+function ToReport({ of }: { of: Recommended | undefined }) {
+  const short = of ? inShort(of) : '…';
   return (
     <div class="to-report">
       <h3>Recommended: {short === 'none' ? 'no modulus' : `E ${/^[<>]/.test(short) ? short : `= ${short}`} kPa`}</h3>
-      {!Number.isFinite(of.value) && <p class="soft">{of.text}</p>}
+      {of && !Number.isFinite(of.value) && <p class="soft">{of.text}</p>}
     </div>
   );
 }
@@ -86,12 +87,13 @@ export function ModuliPanel() {
   const number = useStore(focus);
   const run = useStore(moduli)[number ?? -1];
   useStore(items);
-  const recommended = recommendedOf(run);
+  const report = useStore(reports)[number ?? -1];
+  const recommended = recommendedOf(report);
   const fields = fieldsOf(useStore(declared));
   return (
     <section class="moduli" aria-label="Moduli">
       <h2>Young's moduli</h2>
-      {recommended && <ToReport of={recommended} />}
+      {run?.state === 'ready' && <ToReport of={recommended} />}
       <SettingFields of={fields.filter((setting) => setting.usual)} />
       <Replaced />
       <Run />
@@ -100,11 +102,11 @@ export function ModuliPanel() {
         <SettingFields of={fields.filter((setting) => !setting.usual)} />
       </details>
       {run?.state === 'failed' && run.error && <p class="alarm">{run.error}</p>}
-      {run?.state === 'ready' && run.lines && run.lines.length > 0 && (
+      {report?.state === 'ready' && report.lines && report.lines.length > 0 && (
         <details>
           <summary>What the moduli rest on</summary>
           <ul class="remarks">
-            {run.lines.map((line) => (
+            {report.lines.map((line) => (
               <li key={line}>{line}</li>
             ))}
           </ul>

@@ -5,19 +5,16 @@ import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { watchChanges } from './changes';
 import { loadingColumns, stopLoading } from './columns';
-import { Distributions } from './Distributions';
 import { ExportMenu } from './ExportMenu';
 import { readComputed } from './features';
-import { GateList } from './GateList';
 import { Inspector } from './Inspector';
-import { focus, gates, items, keepModel, panel, plots, readRecordings, recordings, secondPlot, tool, type Panel, type Tool } from './model';
+import { focus, items, keepModel, plots, readRecordings, recordings, secondPlot, tool, type Tool } from './model';
 import { ModuliPanel } from './ModuliPanel';
-import { Populations } from './Populations';
 import { readKnownModuli } from './moduli';
 import { RecordingList } from './RecordingList';
+import { Results } from './Results';
 import { ScatterPlot } from './ScatterPlot';
 import { readDeclared } from './settings';
-import { MeasuredSelect, StatisticsTable } from './StatisticsTable';
 import './list.css';
 import './plots.css';
 import './results.css';
@@ -28,12 +25,6 @@ const tools: [Tool, string, string][] = [
   ['look', 'Move', 'Drag moves, the wheel or two fingers zoom, a click or a tap chooses an event'],
   ['box', 'Box', 'Gate: drag a box, limits of both features'],
   ['polygon', 'Polygon', 'Gate: click corners; the first corner closes it'],
-];
-const panels: [Panel, string][] = [
-  ['statistics', 'Statistics'],
-  ['gates', 'Gates'],
-  ['distributions', 'Distributions'],
-  ['populations', 'Populations'],
 ];
 
 let begun = false;
@@ -90,52 +81,6 @@ function OverlayChecks() {
         Contours
       </label>
     </>
-  );
-}
-
-/** Arrow keys lead from tab to tab. */
-function moveTab(event: KeyboardEvent, now: Panel): void {
-  const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
-  if (step === 0) return;
-  const at = panels.findIndex(([name]) => name === now);
-  const next = panels[(at + step + panels.length) % panels.length][0];
-  panel.set(next);
-  document.getElementById(`tab-${next}`)?.focus();
-  event.preventDefault();
-}
-
-function Results() {
-  const shown = useStore(panel);
-  const active = useStore(gates).filter((gate) => gate.on).length;
-  return (
-    <section class="results" aria-label="Results">
-      <div class="results-head">
-        <div class="tabs" role="tablist" aria-label="Results">
-          {panels.map(([name, title]) => (
-            <button
-              key={name}
-              id={`tab-${name}`}
-              role="tab"
-              aria-selected={shown === name}
-              aria-controls="results-panel"
-              tabIndex={shown === name ? 0 : -1}
-              onClick={() => panel.set(name)}
-              onKeyDown={(event) => moveTab(event, name)}
-            >
-              {title}
-              {name === 'gates' && active > 0 && ` (${active})`}
-            </button>
-          ))}
-        </div>
-        {shown !== 'gates' && shown !== 'populations' && <MeasuredSelect />}
-      </div>
-      <div id="results-panel" role="tabpanel" aria-labelledby={`tab-${shown}`} tabIndex={0}>
-        {shown === 'statistics' && <StatisticsTable />}
-        {shown === 'gates' && <GateList />}
-        {shown === 'distributions' && <Distributions />}
-        {shown === 'populations' && <Populations />}
-      </div>
-    </section>
   );
 }
 

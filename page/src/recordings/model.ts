@@ -33,7 +33,6 @@ export interface Choice {
 }
 
 export type Tool = 'look' | 'box' | 'polygon';
-export type Panel = 'statistics' | 'gates' | 'distributions' | 'populations';
 
 export const byDensity = 'density';
 const axis = (feature: string): Axis => ({ feature, scale: 'linear', span: null });
@@ -63,7 +62,8 @@ const leaveEvent = () => {
 focus.subscribe(leaveEvent);
 plots.subscribe(leaveEvent);
 export const tool = store<Tool>('look');
-export const panel = store<Panel>('statistics');
+/** The name of the tab that is shown. */
+export const panel = store<string>('statistics');
 /** The feature of the statistics and the distributions. */
 export const measured = store<string>(youngModulus);
 export const moduliSettings = store<Record<string, string>>({});

@@ -1,5 +1,4 @@
-#include "view/declarations.h"
-
+// GET /api/health, /api/keys, /api/settings, /api/features, /api/media, /api/media/viscosity: what can be asked for.
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -10,9 +9,11 @@
 #include "measurement/viscosity.h"
 #include "numeric/number_from_chars.h"
 #include "report/settings_text.h"
+#include "serve/router.h"
 #include "store/build_info.h"
 #include "store/thread.h"
 #include "view/recording_columns.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -133,15 +134,21 @@ Json features_of_moduli() {
   return list;
 }
 
+void add_declaration_routes(const ViewContext& view) {
+  const auto add = [&](std::string_view pattern, auto declared) {
+    view.router.add("GET", pattern, [declared](const Request&) { return json_answer(declared()); });
+  };
+  add("/api/health", health);
+  add("/api/keys", keys_of_cases);
+  add("/api/settings", settings_of_moduli);
+  add("/api/features", features_of_moduli);
+  add("/api/media", known_media);
+  view.router.add("GET", "/api/media/viscosity",
+                  [](const Request& request) { return json_answer(viscosity(request)); });
+}
+
 }  // namespace
 
-void add_declaration_routes(Router& router) {
-  router.add("GET", "/api/health", [](const Request&) { return json_answer(health()); });
-  router.add("GET", "/api/keys", [](const Request&) { return json_answer(keys_of_cases()); });
-  router.add("GET", "/api/settings", [](const Request&) { return json_answer(settings_of_moduli()); });
-  router.add("GET", "/api/features", [](const Request&) { return json_answer(features_of_moduli()); });
-  router.add("GET", "/api/media", [](const Request&) { return json_answer(known_media()); });
-  router.add("GET", "/api/media/viscosity", [](const Request& request) { return json_answer(viscosity(request)); });
-}
+extern const ViewPart declaration_routes{add_declaration_routes};
 
 }  // namespace rheocyte

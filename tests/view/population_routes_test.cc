@@ -1,6 +1,4 @@
 // Requests for populations: whatever a body holds, the answer is a sentence about it.
-#include "view/population_route.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,10 +7,10 @@
 
 #include "case/json_guard.h"
 #include "measurement/recording_writer.h"
-#include "view/view_items.h"
+#include "view/view_routes.h"
 #include "virtual_cells.h"
 
-namespace rheocyte::population_route_test {
+namespace rheocyte::population_routes_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,16 +20,14 @@ class PopulationRoute : public testing::Test {
   PopulationRoute() {
     test::write_virtual_cells(folder_ / "cells, 5 %.rtdc", 12);
     const std::array<std::filesystem::path, 1> paths{folder_ / "cells, 5 %.rtdc"};
-    items_.emplace(paths);
-    add_population_route(router_, *items_);
+    routes_.emplace(paths, folder_ / "out");
   }
   Answer ask(const Json& body) const {
-    return router_.answer({.method = "POST", .path = "/api/population", .body = json_text(body)});
+    return routes_->router().answer({.method = "POST", .path = "/api/population", .body = json_text(body)});
   }
 
   test::ScratchFolder folder_;
-  std::optional<ViewItems> items_;
-  Router router_;
+  std::optional<ViewRoutes> routes_;
 };
 
 TEST_F(PopulationRoute, BodiesOfAnyFormHaveASentenceAboutThem) {
@@ -67,4 +63,4 @@ TEST_F(PopulationRoute, ARecordingOfTooFewCellsIsNamedWithItsCommas) {
 }
 
 }  // namespace
-}  // namespace rheocyte::population_route_test
+}  // namespace rheocyte::population_routes_test

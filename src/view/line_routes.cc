@@ -1,4 +1,4 @@
-#include "view/plane_lines.h"
+#include "view/line_routes.h"
 
 #include <memory>
 #include <mutex>
@@ -7,7 +7,9 @@
 
 #include "case/json_guard.h"
 #include "report/plot_lines.h"
+#include "serve/router.h"
 #include "view/case_from_json.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -17,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 Json as_xy(const nlohmann::json& points) { return {{"x", points.at("area_um2")}, {"y", points.at("deformation")}}; }
 
-/// Those of the tables that come with the program, which are read once.
+/// GET /api/lines?case=JSON: lines of the channel and the flow of a case, without pixels, of the tables that come with
+/// the program, which are read once.
 class PlaneLines {
  public:
   Json of(const Case& c) {
@@ -56,13 +59,18 @@ Json no_lines_json(const std::string& sentence) {
   return {{"lines", Json::array()}, {"range", nullptr}, {"table", nullptr}, {"sentence", sentence}};
 }
 
-void add_plane_lines_route(Router& router) {
-  const auto lines = std::make_shared<PlaneLines>();
-  router.add("GET", "/api/lines", [lines](const Request& request) {
+namespace {
+
+void add_line_routes(const ViewContext& view) {
+  view.router.add("GET", "/api/lines", [lines = std::make_shared<PlaneLines>()](const Request& request) {
     const Json tree = parse_sound_json(request.asked("case"));
     if (!tree.is_object()) throw Refused(400, "input", "The query needs the case as JSON: case={...}.");
     return json_answer(lines->of(case_from_json(tree)));
   });
 }
+
+}  // namespace
+
+extern const ViewPart line_routes{add_line_routes};
 
 }  // namespace rheocyte

@@ -1,18 +1,20 @@
 // Populations: what the recordings of each condition say about its cells, one dot a session, and whether conditions differ.
 import { Fragment } from 'preact';
 import { useState } from 'preact/hooks';
-import type { Population, PopulationRecording } from '../api';
-import { significant } from '../draw/numbers';
-import { Progress } from '../shell/Progress';
-import { useStore } from '../shell/store';
-import { items, recordings } from './model';
-import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from './population_runs';
-import { dotsOf, intervalOf, sessionsOf, type Interval } from './condition_dots';
-import { RecommendedMean } from './Conditions';
-import { moduli } from './moduli';
-import { recommendedOf } from './recommended';
-import { ticksOf, type Span } from './scale';
-import { useSize } from './use_size';
+import type { Population, PopulationRecording } from '../../api';
+import { significant } from '../../draw/numbers';
+import { Progress } from '../../shell/Progress';
+import { useStore } from '../../shell/store';
+import { items, recordings } from '../model';
+import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from '../population_runs';
+import { dotsOf, intervalOf, sessionsOf, type Interval } from '../condition_dots';
+import { RecommendedMean } from '../Conditions';
+import { recommendedOf } from '../recommended';
+import { reports } from '../reports';
+import { ticksOf, type Span } from '../scale';
+import type { Tab } from '../tab';
+import { useSize } from '../use_size';
+import './Populations.css';
 
 const height = 210;
 const left = 62;
@@ -91,7 +93,7 @@ function interval(value: Interval | undefined): string {
 
 function Table({ found, quantity: { quantity, median, symbol, unit } }: { found: Population; quantity: Quantity }) {
   const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
-  const runs = useStore(moduli);
+  const runs = useStore(reports);
   const isModulus = quantity === 'young_modulus' && all.some(({ item }) => recommendedOf(runs[item]));
   return (
     <table class="conditions">
@@ -156,7 +158,7 @@ function Start() {
   );
 }
 
-export function Populations() {
+function Populations() {
   const found = useStore(population);
   const { element, width } = useSize<HTMLDivElement>();
   const [open, setOpen] = useState(false);
@@ -209,3 +211,5 @@ export function Populations() {
     </div>
   );
 }
+
+export default { name: 'populations', title: 'Populations', place: 4, Content: Populations } satisfies Tab;

@@ -1,5 +1,4 @@
-#include "view/evolve_route.h"
-
+// POST /api/evolve: a cell on its way in time, line by line.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,8 +13,10 @@
 #include "laws/wall_profile.h"
 #include "result/evolution.h"
 #include "serve/json_member.h"
+#include "serve/router.h"
 #include "view/case_from_json.h"
 #include "view/state_json.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -52,19 +53,19 @@ class EvolutionLines {
   }
 
   /// Gives the lines until the end, or until nobody takes them.
-  void give(const TakePiece& take, const Client* client) {
-    bool is_wanted = true;
+  void give(const TakePiece& take, const Watch& watch) {
+    bool has_left = false;
     evolution_.follow_here([&] {
-      is_wanted = is_wanted && give_waiting(take) && !(client && client->has_left());
-      if (!is_wanted) evolution_.stop();
+      has_left = has_left || !give_waiting(take) || watch.stop();
+      if (has_left) evolution_.stop();
     });
-    if (!is_wanted) return;
+    if (has_left) return;
     for (;;) {
       evolution_.wait_for(Client::asked_every);
       const bool is_over = evolution_.is_over();
       if (!give_waiting(take)) return;
       if (is_over) static_cast<void>(take(json_line(last()) + "\n"));
-      if (is_over || (client && client->has_left())) return;
+      if (is_over || watch.stop()) return;
     }
   }
 
@@ -151,17 +152,20 @@ Answer evolve(Evolutions& evolutions, const Request& request) {
         "The case has neither time.end_us nor time.end_um; give one, and cell.viscosity_mPas, or ask /api/state.");
   Answer answer;
   answer.type = "application/x-ndjson";
-  answer.give_pieces = [evolution = evolutions.begin(c, request), client = request.client](const TakePiece& take) {
-    evolution->give(take, client);
+  answer.give_pieces = [evolution = evolutions.begin(c, request), watch = request.watch()](const TakePiece& take) {
+    evolution->give(take, watch);
   };
   return answer;
 }
 
+void add_evolve_routes(const ViewContext& view) {
+  view.router.add("POST", "/api/evolve", [running = std::make_shared<Evolutions>()](const Request& request) {
+    return evolve(*running, request);
+  });
+}
+
 }  // namespace
 
-void add_evolve_route(Router& router) {
-  const auto evolutions = std::make_shared<Evolutions>();
-  router.add("POST", "/api/evolve", [evolutions](const Request& request) { return evolve(*evolutions, request); });
-}
+extern const ViewPart evolve_routes{add_evolve_routes};
 
 }  // namespace rheocyte

@@ -1,5 +1,7 @@
-#include "view/population_route.h"
-
+// POST /api/population takes {"conditions": [{"name", "items": [numbers in the order of the sessions]}], "settings":
+// {...}}, the settings of `rheocyte population` but for table and jobs; those of the moduli that it does not have are
+// left out. Answers
+// {"record": population.json, "lines": [what the command says], "command": for a shell}.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "case/json_guard.h"
 #include "case/user_error.h"
-#include "events/polygon_file.h"
 #include "events/recording_settings.h"
 #include "experiment/analyse_populations.h"
 #include "report/population_files.h"
@@ -16,8 +17,11 @@
 #include "report/settings_text.h"
 #include "serve/few_at_once.h"
 #include "serve/json_member.h"
+#include "serve/router.h"
+#include "view/moduli_settings.h"
 #include "view/path_text.h"
 #include "view/view_items.h"
+#include "view/view_part.h"
 
 namespace rheocyte {
 
@@ -41,8 +45,7 @@ Json population_settings(const Json& given) {
     if (name != "table" && name != "jobs" && given.contains(name)) settings[name] = given[name];
   }
   if (settings.value("model", Json()) != "cortex") settings.erase("section");  // of the moduli beside it
-  for (const Json& one : settings.value("polygon", Json::array()))
-    if (one.is_string() && is_polygon_file(one)) throw UserError("polygon must be features and corners, not a file.");
+  refuse_polygon_files(settings);
   return settings;
 }
 
@@ -74,8 +77,7 @@ Json population_work(const Json& asked, const ViewItems& items) {
   return work;
 }
 
-}  // namespace
-
+/// In the process that reads the recordings.
 void compute_population(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   PopulationOptions options = population_options(request.at("settings"));
   options.jobs = 1;
@@ -91,16 +93,26 @@ void compute_population(const Json& request, const WorkReply& reply, const TellP
                         {"command", request.at("command")}}));
 }
 
-void add_population_route(Router& router, ViewItems& items) {
+Answer population(ViewItems& items, const Request& request) {
+  return {.body = items.host().ask(json_text(population_work(request.json(), items))).all(request.watch())};
+}
+
+/// Between two signs of life there is the fit of a whole recording.
+constexpr double patience_with_fits_s = 600;
+
+void add_population_routes(const ViewContext& view) {
   constexpr int most = 4;
   const auto under_way =
       std::make_shared<FewAtOnce>(most, "Several populations are being computed already; wait for their end.");
-  router.add("POST", "/api/population", [&items, under_way](const Request& request) -> Answer {
+  view.router.add("POST", "/api/population", [&items = view.items, under_way](const Request& request) {
     const FewAtOnce::Turn turn = under_way->begin();
-    HostedWork work = items.host().ask(json_text(population_work(request.json(), items)));
-    work.only_while([client = request.client] { return !client || !client->has_left(); });
-    return {.body = work.all()};
+    return population(items, request);
   });
 }
+
+}  // namespace
+
+extern const ViewPart population_routes{add_population_routes,
+                                        {{"population", compute_population, {.patience_s = patience_with_fits_s}}}};
 
 }  // namespace rheocyte

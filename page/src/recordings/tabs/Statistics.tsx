@@ -1,32 +1,20 @@
 // Statistics of a feature by recording, over the events within the gates.
-import type { Item } from '../api';
-import { significant } from '../draw/numbers';
-import { useStore } from '../shell/store';
-import { countWithin, statisticsOf } from './analysis';
-import { columnsVersion } from './columns';
-import { isComputed, isYoungModulus, labelOf, unitOf } from './features';
-import { focus, gates, items, measured, recordings, titleOf } from './model';
-import { moduli } from './moduli';
-import { originOf } from './origin';
-import { FeatureOptions } from './PlotSelects';
-import { inShort, recommendedOf } from './recommended';
-import { counted } from './scale';
+import type { Item } from '../../api';
+import { significant } from '../../draw/numbers';
+import { useStore } from '../../shell/store';
+import { countWithin, statisticsOf } from '../analysis';
+import { columnsVersion } from '../columns';
+import { isComputed, isYoungModulus, labelOf, unitOf } from '../features';
+import { focus, gates, items, measured, recordings, titleOf } from '../model';
+import { moduli } from '../moduli';
+import { originOf } from '../origin';
+import { inShort, recommendedOf } from '../recommended';
+import { reports } from '../reports';
+import { counted } from '../scale';
+import type { Tab } from '../tab';
 
 /** Of median, mean, SD, SE and quartiles; all of them are under the pointer. */
 const digits = [4, 4, 3, 2, 3, 3];
-
-export function MeasuredSelect() {
-  const feature = useStore(measured);
-  const offered = [...new Set(recordings(useStore(items)).flatMap((item) => item.features ?? []))];
-  return (
-    <label class="choice">
-      <span>Of</span>
-      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
-        <FeatureOptions features={offered} chosen={feature} />
-      </select>
-    </label>
-  );
-}
 
 /** Where the numbers of a feature come from, of all recordings that can be read. */
 export function useOrigin(feature: string): string {
@@ -40,9 +28,9 @@ export function useOrigin(feature: string): string {
   return originOf(feature, shown, tables);
 }
 
-/** What is to be reported of the recording, whatever the gates of the page. */
+/** What is to be reported of the events within the gates. */
 function RecommendedCell({ item }: { item: Item }) {
-  const recommended = recommendedOf(useStore(moduli)[item.item]);
+  const recommended = recommendedOf(useStore(reports)[item.item]);
   return (
     <td class="recommended" title={recommended?.text}>
       {recommended ? inShort(recommended).replace(' ± ', '\n±\u00a0').replace(' ± ', '\u00a0±\u00a0') : '–'}
@@ -77,7 +65,7 @@ function Row({ item, feature }: { item: Item; feature: string }) {
   );
 }
 
-export function StatisticsTable() {
+function StatisticsTable() {
   useStore(columnsVersion);
   const feature = useStore(measured);
   const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
@@ -116,9 +104,11 @@ export function StatisticsTable() {
       <p class="soft">
         {unit && `In ${unit}. `}
         {isModulus && 'Recommended E: the number to report, with its errors by the scatter of the events and by what they share; the reason is under the pointer and at the left. '}
-        {isModulus && isGated && 'It is that of all events, without the gates. '}
+        {isModulus && isGated && 'It is that of the events within the gates. '}
         SE is the standard error of the mean: SD divided by the root of the number of events.
       </p>
     </div>
   );
 }
+
+export default { name: 'statistics', title: 'Statistics', place: 1, measures: true, Content: StatisticsTable } satisfies Tab;

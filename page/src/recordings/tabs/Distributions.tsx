@@ -1,19 +1,21 @@
 // Distributions of a feature by recording, side by side in the order of their conditions, and each condition's mean.
 import { useMemo, useState } from 'preact/hooks';
-import type { Item } from '../api';
-import { useStore } from '../shell/store';
-import { maskOf } from './analysis';
-import { Conditions } from './Conditions';
-import { column, columnsVersion, wantColumns } from './columns';
-import { isYoungModulus, labelOf } from './features';
-import { items, measured, paintedGates, recordings, titleOf } from './model';
-import { moduli } from './moduli';
-import { distinctNames } from './names';
-import { recommendedOf } from './recommended';
-import { forward, rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
-import { useOrigin } from './StatisticsTable';
-import { useSize } from './use_size';
-import { valuesAlong, violinCells, violinOf, type Violin } from './violins';
+import type { Item } from '../../api';
+import { useStore } from '../../shell/store';
+import { maskOf } from '../analysis';
+import { Conditions } from '../Conditions';
+import { column, columnsVersion, wantColumns } from '../columns';
+import { isYoungModulus, labelOf } from '../features';
+import { items, measured, paintedGates, recordings, titleOf } from '../model';
+import { distinctNames } from '../names';
+import { recommendedOf } from '../recommended';
+import { reports } from '../reports';
+import { forward, rangeOf, ticksOf, type ScaleKind, type Span } from '../scale';
+import type { Tab } from '../tab';
+import { useSize } from '../use_size';
+import { valuesAlong, violinCells, violinOf, type Violin } from '../violins';
+import { useOrigin } from './Statistics';
+import './Distributions.css';
 
 const slots = { least: 46, greatest: 120 };
 const height = 210;
@@ -34,7 +36,7 @@ function useEntries(feature: string, scale: ScaleKind): { entries: Entry[]; span
   const version = useStore(columnsVersion);
   const active = useStore(paintedGates);
   const all = useStore(items);
-  const runs = useStore(moduli);
+  const runs = useStore(reports);
   return useMemo(() => {
     const ready = recordings(all).filter((item) => item.state === 'ready');
     const ordered = [...ready].sort((a, b) => a.condition.localeCompare(b.condition));
@@ -168,7 +170,7 @@ function shortened(name: string, width: number): string {
   return name.length > most ? `${name.slice(0, most - 1)}…` : name;
 }
 
-export function Distributions() {
+function Distributions() {
   const feature = useStore(measured);
   const [scale, setScale] = useState<ScaleKind>('linear');
   const { entries, span } = useEntries(feature, scale);
@@ -199,3 +201,5 @@ export function Distributions() {
     </div>
   );
 }
+
+export default { name: 'distributions', title: 'Distributions', place: 3, measures: true, Content: Distributions } satisfies Tab;

@@ -1,11 +1,13 @@
 // The gates as numbers: what is drawn in a plot can be set here as well, and by the keyboard alone.
-import { numberIn } from '../draw/numbers';
-import { useStore } from '../shell/store';
-import { TypedInput } from '../shell/TypedInput';
-import { labelOf, nameOf } from './features';
-import type { Gate, PolygonGate, RangeGate } from './gates';
-import { addGate, changeGate, focus, gates, itemOf, items, removeGate } from './model';
-import { FeatureOptions } from './PlotSelects';
+import { numberIn } from '../../draw/numbers';
+import { useStore } from '../../shell/store';
+import { TypedInput } from '../../shell/TypedInput';
+import { labelOf, nameOf } from '../features';
+import type { Gate, PolygonGate, RangeGate } from '../gates';
+import { addGate, changeGate, focus, gates, itemOf, items, removeGate } from '../model';
+import { FeatureOptions } from '../PlotSelects';
+import type { Tab } from '../tab';
+import './Gates.css';
 
 function End({ gate, which }: { gate: RangeGate; which: 'low' | 'high' }) {
   return (
@@ -72,7 +74,7 @@ function GateRow({ gate }: { gate: Gate }) {
   );
 }
 
-export function GateList() {
+function GateList() {
   const all = useStore(gates);
   useStore(items);
   const features = itemOf(useStore(focus))?.features ?? [];
@@ -102,3 +104,10 @@ export function GateList() {
     </div>
   );
 }
+
+function HowMany() {
+  const active = useStore(gates).filter((gate) => gate.on).length;
+  return active > 0 ? <> ({active})</> : null;
+}
+
+export default { name: 'gates', title: 'Gates', place: 2, Note: HowMany, Content: GateList } satisfies Tab;

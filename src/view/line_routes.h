@@ -3,16 +3,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "serve/router.h"
-
 namespace rheocyte {
 
 /// {"lines": [{"young_modulus_kPa", "x", "y"}], "range": {"x", "y"}, "table", "sentence"} from what PlotLines draws.
 nlohmann::ordered_json lines_json(const nlohmann::json& drawn, const std::string& sentence);
 /// Without lines; the sentence tells why.
 nlohmann::ordered_json no_lines_json(const std::string& sentence);
-
-/// GET /api/lines?case=JSON: those of the channel and the flow of a case, without pixels.
-void add_plane_lines_route(Router&);
 
 }  // namespace rheocyte

@@ -1,0 +1,63 @@
+// What is known of the recordings, in tabs below the plots.
+import tabs from 'every:./tabs';
+import { useStore } from '../shell/store';
+import { items, measured, panel, recordings } from './model';
+import { FeatureOptions } from './PlotSelects';
+import type { Tab } from './tab';
+
+const inOrder: Tab[] = [...tabs].sort((a, b) => a.place - b.place);
+
+/** Arrow keys lead from tab to tab. */
+function moveTab(event: KeyboardEvent, now: Tab): void {
+  const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+  if (step === 0) return;
+  const next = inOrder[(inOrder.indexOf(now) + step + inOrder.length) % inOrder.length].name;
+  panel.set(next);
+  document.getElementById(`tab-${next}`)?.focus();
+  event.preventDefault();
+}
+
+function MeasuredSelect() {
+  const feature = useStore(measured);
+  const offered = [...new Set(recordings(useStore(items)).flatMap((item) => item.features ?? []))];
+  return (
+    <label class="choice">
+      <span>Of</span>
+      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
+        <FeatureOptions features={offered} chosen={feature} />
+      </select>
+    </label>
+  );
+}
+
+export function Results() {
+  const chosen = useStore(panel);
+  const shown = inOrder.find(({ name }) => name === chosen) ?? inOrder[0];
+  return (
+    <section class="results" aria-label="Results">
+      <div class="results-head">
+        <div class="tabs" role="tablist" aria-label="Results">
+          {inOrder.map((tab) => (
+            <button
+              key={tab.name}
+              id={`tab-${tab.name}`}
+              role="tab"
+              aria-selected={shown === tab}
+              aria-controls="results-panel"
+              tabIndex={shown === tab ? 0 : -1}
+              onClick={() => panel.set(tab.name)}
+              onKeyDown={(event) => moveTab(event, tab)}
+            >
+              {tab.title}
+              {tab.Note && <tab.Note />}
+            </button>
+          ))}
+        </div>
+        {shown.measures && <MeasuredSelect />}
+      </div>
+      <div id="results-panel" role="tabpanel" aria-labelledby={`tab-${shown.name}`} tabIndex={0}>
+        <shown.Content />
+      </div>
+    </section>
+  );
+}
