@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -23,6 +22,7 @@
 
 #include "case/user_error.h"
 #include "store/child_process.h"
+#include "store/isolated_messages.h"
 #include "store/process_start.h"
 #include "store/stop_signal.h"
 #include "store/system_limit.h"
@@ -34,36 +34,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = IsolatedEnd::Kind;
 
-enum class MessageKind : char { progress = 'p', result = 'r', user_error = 'u', own_error = 'o', no_memory = 'm' };
-
-struct Header {
-  MessageKind message = MessageKind::progress;
-  std::uint64_t length = 0;
-};
-
-void send(int pipe, MessageKind message, const void* data, std::size_t length) {
-  std::string bytes(sizeof(Header) + length, '\0');
-  Header header{};
-  header.message = message;
-  header.length = length;
-  std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, data, length);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::write(pipe, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) ::_exit(1);  // the parent is gone
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-}
-
-void send(int pipe, MessageKind message, const std::string& text) { send(pipe, message, text.data(), text.size()); }
-
 int pipe_to_parent = -1;
 
 // Ends the child at once: Eigen's matrices do not survive std::bad_alloc, and nothing here can be saved.
 [[noreturn]] void tell_of_no_memory() {
-  Header header{};
-  header.message = MessageKind::no_memory;
-  static_cast<void>(!::write(pipe_to_parent, &header, sizeof header));
+  send_want_of_memory(pipe_to_parent);
   ::_exit(0);
 }
 
@@ -121,74 +96,16 @@ class SignalsHeldBack {
   }
   limit(limits);
   try {
-    const std::string text =
-        work([pipe](double fraction) { send(pipe, MessageKind::progress, &fraction, sizeof fraction); });
-    send(pipe, MessageKind::result, text);
+    send(pipe, MessageKind::result, work([pipe](double fraction) { send_progress(pipe, fraction); }));
   } catch (const UserError& error) {
     send(pipe, MessageKind::user_error, error.what());
   } catch (const std::bad_alloc&) {
-    send(pipe, MessageKind::no_memory, std::string());
+    send(pipe, MessageKind::no_memory, {});
   } catch (const std::exception& error) {
     send(pipe, MessageKind::own_error, error.what());
   }
   ::_exit(0);  // no destructors of the parent's objects, no flushing of its buffers
 }
-
-}  // namespace
-
-/// Puts messages together from what arrives in pieces.
-class IsolatedInbox {
- public:
-  /// `longest`: of a message in bytes; a child that broke down may announce anything.
-  IsolatedInbox(const TellProgress& on_progress, std::uint64_t longest)
-      : on_progress_(on_progress), longest_(longest) {}
-
-  /// False at the end of the pipe.
-  bool read_from(int pipe) {
-    char buffer[65536];
-    const ssize_t count = ::read(pipe, buffer, sizeof buffer);
-    if (count < 0) return errno == EINTR || errno == EAGAIN;
-    if (count == 0) return false;
-    bytes_.append(buffer, static_cast<std::size_t>(count));
-    while (take_message()) {
-    }
-    return true;
-  }
-
-  bool has_end() const { return has_end_; }
-  const IsolatedEnd& end() const { return end_; }
-
- private:
-  bool take_message() {
-    Header header{};
-    if (bytes_.size() < sizeof header) return false;
-    std::memcpy(&header, bytes_.data(), sizeof header);
-    if (header.length > longest_ || bytes_.size() < sizeof header + header.length) return false;
-    const std::string text = bytes_.substr(sizeof header, header.length);
-    bytes_.erase(0, sizeof header + header.length);
-    if (header.message == MessageKind::progress) {
-      double fraction = 0;
-      if (text.size() == sizeof fraction) std::memcpy(&fraction, text.data(), sizeof fraction);
-      on_progress_(fraction);
-      return true;
-    }
-    end_.text = text;
-    end_.kind = header.message == MessageKind::result       ? Kind::finished
-                : header.message == MessageKind::user_error ? Kind::user_error
-                : header.message == MessageKind::no_memory  ? Kind::no_memory
-                                                            : Kind::own_error;
-    has_end_ = true;
-    return true;
-  }
-
-  const TellProgress& on_progress_;
-  std::uint64_t longest_;
-  std::string bytes_;
-  IsolatedEnd end_;
-  bool has_end_ = false;
-};
-
-namespace {
 
 // What the messages, the status and our own impatience say together.
 IsolatedEnd conclude(const IsolatedInbox& inbox, int status) {
