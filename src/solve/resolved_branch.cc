@@ -261,14 +261,9 @@ Status ResolvedBranch::climb_on(const Rungs& rungs, ResolvedState& state, Ladder
   return Status::accuracy_not_reached;
 }
 
-namespace {
-
-/// Chord steps end just below the tolerance, where Newton's own end far below it: volumes were off by 3e-9.
-constexpr double of_chord_steps = 0.1;
-
-}  // namespace
-
 Status ResolvedBranch::carry(const Problem& from, const Ladder& former, Ladder& ladder) {
+  // Chord steps end just below the tolerance, where Newton's own end far below it: volumes were off by 3e-9.
+  constexpr double of_chord_steps = 0.1;
   const double growth = problem_.radius_ratio / from.radius_ratio;
   VectorXd before;  // of the last rung, on the mesh of this problem
   for (const ResolvedState& rung : former.rungs) {
