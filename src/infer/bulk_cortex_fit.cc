@@ -1,7 +1,5 @@
 #include "infer/bulk_cortex_fit.h"
 
-#include <ceres/tiny_solver.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <utility>
 
 #include "infer/moduli_misfit.h"
+#include "numeric/dense_solve.h"
+#include "numeric/minimise_squares.h"
 
 namespace rheocyte {
 
@@ -109,15 +109,13 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
   CellCoordinates cell = start;
   const CellBox& box = table_.box();
   const CellCoordinates width = widths(box);
-  ceres::TinySolver<ModuliMisfit> solver;
-  solver.options.function_tolerance = 1e-9;
-  solver.options.max_num_iterations = 100;
+  const auto residuals = [&](const Eigen::VectorXd& x, Eigen::MatrixXd* slopes) { return misfit.residuals(x, slopes); };
   while (true) {
     misfit.set_free(free, cell);
     Eigen::VectorXd x = misfit.parameters();
-    const auto& summary = solver.Solve(misfit, &x);
-    cell = misfit.cell_at(x.data());
-    if (!cell.allFinite() || !std::isfinite(summary.final_cost)) return {start, HUGE_VAL};
+    const double chi_squared = minimise_squares(residuals, x);
+    cell = misfit.cell_at(x);
+    if (!cell.allFinite() || !std::isfinite(chi_squared)) return {start, HUGE_VAL};
     const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
                           beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
     const auto outside = [&](int coordinate) {
@@ -127,7 +125,7 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
     if (outside(*farthest) == 0) {
       // Without a cortex no ratio is better than another, and errors depend on it.
       if (options_.free_tension && cell(x_fraction) == 0) cell(x_ratio) = middle_ratio();
-      return {cell, 2 * summary.final_cost};
+      return {cell, chi_squared};
     }
     cell(*farthest) = held(*farthest);
     free.erase(farthest);
@@ -139,16 +137,15 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
 CellCoordinates BulkCortexFit::with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start) {
   CellCoordinates best = start;
   double least = HUGE_VAL;
-  Eigen::VectorXd residual(misfit.NumResiduals());
   misfit.set_free({x_progress}, start);
   const Eigen::VectorXd at_start = misfit.parameters();
   for (const double change_of_logarithm : {0.0, -0.8, -0.4, 0.4, 0.8}) {
     misfit.set_free({x_progress}, start);  // each search for a progress begins there
     const Eigen::VectorXd x = at_start.array() + change_of_logarithm;
-    misfit(x.data(), residual.data(), nullptr);
-    if (residual.squaredNorm() >= least) continue;
-    least = residual.squaredNorm();
-    best = misfit.cell_at(x.data());
+    const double chi_squared = misfit.residuals(x).squaredNorm();
+    if (chi_squared >= least) continue;
+    least = chi_squared;
+    best = misfit.cell_at(x);
   }
   return best;
 }
@@ -245,7 +242,7 @@ BulkCortexFit::Covariance BulkCortexFit::covariance_at(const ModuliMisfit& misfi
     information.col(x).setZero();
     information(x, x) = 1;
   }
-  Covariance covariance = information.inverse();
+  Covariance covariance = dense_inverse(information);
   for (const int x : known) covariance(x, x) = 0;
   return covariance;
 }

@@ -1,9 +1,9 @@
 #include "infer/course_normal.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "infer/time_course.h"
+#include "numeric/dense_solve.h"
 
 namespace rheocyte {
 
@@ -77,9 +77,9 @@ Eigen::Array2d errors_of(const std::vector<LikelyCells>& cells, const CourseNorm
   }
   for (Eigen::Index i = 0; i < 2; ++i)
     if (!(population.variance[i] > min_variance)) information(2 + i, 2 + i) = 1;
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(information);
-  if (!lu.isInvertible()) return Eigen::Array2d::Constant(HUGE_VAL);
-  return lu.inverse().diagonal().head<2>().array().sqrt();
+  const Eigen::MatrixXd covariance = regular_inverse(information);
+  if (covariance.size() == 0) return Eigen::Array2d::Constant(HUGE_VAL);
+  return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))};
 }
 
 }  // namespace rheocyte
