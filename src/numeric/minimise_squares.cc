@@ -16,7 +16,7 @@ constexpr int most_steps = 100;
 constexpr double first_damping = 1e-4, least_damped = 1e-6, greatest_damped = 1e32;
 /// At the end: of the slope, of a step relative to x, of the gain, and of the squares themselves.
 constexpr double least_slope = 1e-10, least_step = 1e-8, least_gain = 1e-9,
-                 least_squares = 2 * std::numeric_limits<double>::epsilon();
+                 least_sum = 2 * std::numeric_limits<double>::epsilon();
 
 /// The squares about a place as those of linear residuals: squares - 2 downhill . step + step . matrix . step.
 struct Paraboloid {
@@ -24,7 +24,7 @@ struct Paraboloid {
   VectorXd downhill;
   double squares;
 
-  bool is_least() const { return downhill.lpNorm<Eigen::Infinity>() < least_slope || squares < least_squares; }
+  bool is_least() const { return downhill.lpNorm<Eigen::Infinity>() < least_slope || squares < least_sum; }
   VectorXd step(double damping) const {
     MatrixXd damped = matrix;
     damped.diagonal() += damping * matrix.diagonal().cwiseMax(least_damped).cwiseMin(greatest_damped);
