@@ -13,12 +13,12 @@ namespace {
 constexpr double min_variance = min_spread * min_spread;
 
 /// What a cell adds: mean and variance about the population's mean of what it may be.
-struct Moments {
+struct CellMoments {
   Eigen::Array2d first = Eigen::Array2d::Zero(), second = Eigen::Array2d::Zero();
 };
 
-Moments moments_of(const LikelyCells& cell, const CourseNormal& population) {
-  Moments moments;
+CellMoments moments_of(const LikelyCells& cell, const CourseNormal& population) {
+  CellMoments moments;
   double all = 0;
   for (std::size_t i = 0; i < cell.weight.size(); ++i) {
     const Eigen::Array2d away = Eigen::Array2d(cell.log_modulus[i], cell.log_viscosity[i]) - population.mean;
@@ -38,7 +38,7 @@ CourseNormal first_guess(const std::vector<LikelyCells>& cells) {
   flat.variance.setConstant(1e6);
   Eigen::Array2d sum = Eigen::Array2d::Zero(), squares = sum;
   for (const LikelyCells& cell : cells) {
-    const Moments moments = moments_of(cell, flat);
+    const CellMoments moments = moments_of(cell, flat);
     sum += moments.first;
     squares += moments.first.square();
   }
@@ -52,7 +52,7 @@ CourseNormal most_likely(const std::vector<LikelyCells>& cells, CourseNormal pop
   for (int step = 0; step < max_steps; ++step) {
     Eigen::Array2d first = Eigen::Array2d::Zero(), second = first;
     for (const LikelyCells& cell : cells) {
-      const Moments moments = moments_of(cell, population);
+      const CellMoments moments = moments_of(cell, population);
       first += moments.first;
       second += moments.second;
     }
@@ -68,7 +68,7 @@ CourseNormal most_likely(const std::vector<LikelyCells>& cells, CourseNormal pop
 Eigen::Array2d errors_of(const std::vector<LikelyCells>& cells, const CourseNormal& population) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   for (const LikelyCells& cell : cells) {
-    const Moments moments = moments_of(cell, population);
+    const CellMoments moments = moments_of(cell, population);
     Eigen::Vector4d score;
     const auto is_free = (population.variance > min_variance).cast<double>();
     score << (moments.first / population.variance).matrix(),
