@@ -1,7 +1,6 @@
 # Libraries that bring no CMake targets of their own, or targets that we want thinner. All are imported, so their
 # headers count as system headers and our warnings do not reach into them.
 #
-#   rheocyte::ceres      ceres::TinySolver: headers only, libceres is not linked
 #   rheocyte::toml       toml++: headers only
 #   rheocyte::hdf5       HDF5 without MPI
 #   rheocyte::zstd       Zstandard
@@ -37,9 +36,6 @@ function(rheocyte_import target)
   endif()
   target_include_directories(rheocyte::${target} INTERFACE ${${prefix}_INCLUDE_DIR})
 endfunction()
-
-rheocyte_import(ceres HEADER ceres/tiny_solver.h PACKAGE libceres-dev)
-target_link_libraries(rheocyte::ceres INTERFACE Eigen3::Eigen)
 
 rheocyte_import(toml HEADER toml++/toml.h PACKAGE libtomlplusplus-dev)
 target_compile_definitions(rheocyte::toml INTERFACE TOML_HEADER_ONLY=1)

@@ -3,7 +3,7 @@
 set -euo pipefail
 
 # shellcheck disable=SC2034 # used by the scripts that source this file
-build_packages=(g++ cmake ninja-build libeigen3-dev libceres-dev
+build_packages=(g++ cmake ninja-build libeigen3-dev
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libgtest-dev libbenchmark-dev
   libhdf5-dev libzstd-dev libqhull-dev libboost-dev
   python3 python3-matplotlib python3-numpy git)

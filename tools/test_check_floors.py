@@ -105,9 +105,9 @@ class Headers(TreeTest):
 
 class Lengths(TreeTest):
     def test_files_end_at_the_limit(self):
-        for name in ("src/case/a.cc", "python/a.py"):
-            self.accept({name: "\n" * 400})
-            self.reject({name: "\n" * 401}, (name, 401), "401 lines")
+        for name, greatest in (("src/case/a.cc", 300), ("tests/case/a.cc", 400), ("python/a.py", 400)):
+            self.accept({name: "\n" * greatest})
+            self.reject({name: "\n" * (greatest + 1)}, (name, greatest + 1), f"{greatest + 1} lines")
 
     def test_functions_end_at_the_limit(self):
         self.accept({"src/case/a.cc": f"int f() {{\n{body(58)}\n}}\n"})

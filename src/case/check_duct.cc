@@ -24,44 +24,36 @@ void check_duct_profile(const Case& c, const KeyReading& keys) {
   constexpr std::string_view radii = "channel.profile.R_um", rounding = "channel.profile.rounding_um",
                              section = "channel.section";
   if (keys.has(radii))
-    keys.refuse(radii, fmt::format("{} is for tubes, and {} is a duct; give channel.profile.width_um.",
-                                   keys.stated(radii), keys.stated(section)));
+    keys.refuse_stated(
+        radii, fmt::format("is for tubes, and {} is a duct; give channel.profile.width_um", keys.stated(section)));
   const bool has_profile = keys.has("channel.profile.x_um") || keys.has("channel.profile.width_um");
-  if (!c.channel.width_um && !has_profile)
-    keys.refuse(section, fmt::format("{} needs channel.width_um, not a radius.", keys.stated(section)));
+  if (!c.channel.width_um && !has_profile) keys.refuse_stated(section, "needs channel.width_um, not a radius");
   if (!keys.has(rounding)) return;
-  if (!has_profile)
-    keys.refuse(rounding,
-                fmt::format("{} is for the walls of [channel.profile]; leave it out.", keys.stated(rounding)));
+  if (!has_profile) keys.refuse_stated(rounding, "is for the walls of [channel.profile]; leave it out");
 }
 
 /// The material turns through the shape (docs/theory-time.md, eq:turning-in-time).
 void check_off_axis_in_time(const Case& c, const KeyReading& keys) {
   if (is_centred(c.cell)) return;
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
-  };
   if (c.cell.place == CellPlace::equilibrium)
-    refuse("cell.place", "is for stationary shapes; leave it out, and [time] shows how the cell drifts there");
+    keys.refuse_stated("cell.place",
+                       "is for stationary shapes; leave it out, and [time] shows how the cell drifts there");
   if (c.numerics.accuracy_of.value_or(AccuracyOf::deformation) != AccuracyOf::deformation)
-    refuse("numerics.accuracy_of", "is for stationary shapes; leave it out");
+    keys.refuse_stated("numerics.accuracy_of", "is for stationary shapes; leave it out");
 }
 
 void check_duct_in_time(const Case& c, const KeyReading& keys) {
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
-  };
   if (c.time.scheme == TimeScheme::stationary) return;
   if (c.time.scheme == TimeScheme::partitioned)
-    refuse("time.scheme", "is for tubes; choose \"monolithic\", or leave channel.section out");
+    keys.refuse_stated("time.scheme", "is for tubes; choose \"monolithic\", or leave channel.section out");
   if (c.flow.drive != Drive::rate)
-    refuse(keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa",
-           "is for tubes, or for stationary shapes, where the channel is a duct; give flow.rate_ul_per_s");
+    keys.refuse_stated(keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa",
+                       "is for tubes, or for stationary shapes, where the channel is a duct; give flow.rate_ul_per_s");
   check_off_axis_in_time(c, keys);
   constexpr double greatest_degree = 6;
   if (c.time.degree.value_or(0) > greatest_degree)
-    refuse("time.degree",
-           fmt::format("is more than ducts have memory for; at most {:g} are possible", greatest_degree));
+    keys.refuse_stated("time.degree",
+                       fmt::format("is more than ducts have memory for; at most {:g} are possible", greatest_degree));
 }
 
 constexpr double most_unequal_sides = 4;
@@ -73,17 +65,16 @@ void check_rectangle(const Case& c, const KeyReading& keys) {
                              rounding = "channel.profile.rounding_um";
   if (!is_duct(c.channel.section)) return;
   if (const double least = least_rounding * unit_length_um(c); c.channel.profile.rounding_um.value_or(least) < least)
-    keys.refuse(rounding, fmt::format("{} is less than the mesh resolves; at least {:.4g} um are needed.",
-                                      keys.stated(rounding), least));
+    keys.refuse_stated(rounding, fmt::format("is less than the mesh resolves; at least {:.4g} um are needed", least));
   if (c.channel.section != Section::rectangle) return;
   const double width = least_width_um(c.channel), height = *c.channel.height_um;
   if (std::max(width, height) > most_unequal_sides * std::min(width, height))
-    keys.refuse(height_key,
-                fmt::format("{} is outside its range {:.4g} .. {:.4g} um, a quarter to four times {}.",
-                            keys.stated(height_key), width / most_unequal_sides, width * most_unequal_sides,
-                            c.channel.width_um ? "channel.width_um" : "the least of channel.profile.width_um"));
+    keys.refuse_stated(height_key,
+                       fmt::format("is outside its range {:.4g} .. {:.4g} um, a quarter to four times {}",
+                                   width / most_unequal_sides, width * most_unequal_sides,
+                                   c.channel.width_um ? "channel.width_um" : "the least of channel.profile.width_um"));
   if (c.channel.camera == View::diagonal)
-    keys.refuse(camera, fmt::format("{} is for squares; give the angle channel.camera_degree.", keys.stated(camera)));
+    keys.refuse_stated(camera, "is for squares; give the angle channel.camera_degree");
 }
 
 void check_duct(const Case& c, const KeyReading& keys) {
@@ -92,10 +83,10 @@ void check_duct(const Case& c, const KeyReading& keys) {
   check_duct_in_time(c, keys);
   const double most = max_bending_in_ducts_kBT(c);
   if (c.cell.cortex.bending_kBT > most)
-    keys.refuse("cell.cortex.bending_kBT",
-                fmt::format("{} is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more than "
-                            "cells have; lower it, or take the tube.",
-                            keys.stated("cell.cortex.bending_kBT"), most));
+    keys.refuse_stated("cell.cortex.bending_kBT",
+                       fmt::format("is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more "
+                                   "than cells have; lower it, or take the tube",
+                                   most));
 }
 
 }  // namespace rheocyte

@@ -154,6 +154,10 @@ void KeyReading::refuse(std::string_view key, const std::string& reason) const {
   throw KeyError(key, fmt::format("{}: {}", file_, reason));
 }
 
+void KeyReading::refuse_stated(std::string_view key, std::string_view predicate) const {
+  refuse(key, fmt::format("{} {}.", has(key) ? stated(key) : std::string(key), predicate));
+}
+
 bool KeyReading::is_met(const Condition& condition) const {
   if (condition.option.empty()) return has(condition.key) != condition.negated;
   return (chosen(condition.key) == condition.option) != condition.negated;

@@ -44,6 +44,8 @@ class KeyReading {
 
   /// UserError that begins with the place of the key, or the file if it was not given.
   [[noreturn]] void refuse(std::string_view key, const std::string& reason) const;
+  /// The same of a sentence without its end, about what is stated, or about the key if it was not given.
+  [[noreturn]] void refuse_stated(std::string_view key, std::string_view predicate) const;
 
  private:
   using Parts = std::vector<GivenKey>;  ///< several for a spread, otherwise one

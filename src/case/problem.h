@@ -53,9 +53,4 @@ inline Problem with_media(Problem problem, const Media& media) {
   return problem;
 }
 
-/// The problem on its way from the rigid cell.
-inline Problem at_compliance(const Problem& problem, double compliance) {
-  return with_media(problem, media_at(problem, compliance));
-}
-
 }  // namespace rheocyte

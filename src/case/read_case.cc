@@ -10,120 +10,24 @@
 #include "case/case_keys.h"
 #include "case/case_text.h"
 #include "case/check_duct.h"
+#include "case/check_profile.h"
 #include "case/key_reading.h"
 #include "case/problem.h"
 #include "case/scales.h"
-#include "laws/wall_profile.h"
 
 namespace rheocyte {
 
 namespace {
 
-constexpr std::string_view profile_x = "channel.profile.x_um", profile_R = "channel.profile.R_um",
-                           profile_width = "channel.profile.width_um";
-
-bool has_profile(const KeyReading& keys) {
-  return keys.has(profile_x) || keys.has(profile_R) || keys.has(profile_width);
-}
-
-/// Of the walls' radii: as given, or as they follow from widths.
-std::string radii_text(const Case& c, const KeyReading& keys) {
-  if (is_duct(c.channel.section)) return "half of channel.profile.width_um";
-  return keys.has(profile_width) ? "the radius of the tube for channel.profile.width_um" : std::string(profile_R);
-}
-
-/// That of the wall.
-std::string_view wall_key(const Case& c, const KeyReading& keys) {
-  return keys.has(profile_width) || is_duct(c.channel.section) ? profile_width : profile_R;
-}
-
-/// Radii of the tube, or half widths of the duct.
-WallTable wall_radii_um(const Case& c) {
-  if (!is_duct(c.channel.section)) return wall_um(c.channel.profile);
-  WallTable wall{c.channel.profile.x_um, c.channel.profile.width_um};
-  for (double& radius : wall.radius) radius /= 2;
-  return wall;
-}
-
-/// Past steeper ones no mesh follows large cells (docs/theory-time.md, eq:wall). The side walls of a chip are far from
-/// a cell on the axis, and their corners are round (sec. 5).
-double steepest_wall(const Case& c) { return is_duct(c.channel.section) && is_centred(c.cell) ? 10 : 1; }
-
-/// Admits lengths as they are advised, with four digits.
-constexpr double rounding_of_advice = 1e-3;
-constexpr double max_widening = 5;
-constexpr std::size_t most_places = 1000;
-
-void check_places(const Case& c, const KeyReading& keys) {
-  const ChannelProfile& wall = c.channel.profile;
-  const std::size_t n = wall.x_um.size(), given = wall.width_um.empty() ? wall.R_um.size() : wall.width_um.size();
-  const std::string_view key = wall_key(c, keys);
-  if (given != n)
-    keys.refuse(key, fmt::format("{} has {} numbers and {} has {}; give one {} for each place.", key, given, profile_x,
-                                 n, key == profile_R ? "radius" : "width"));
-  if (n < 2 || n > most_places)
-    keys.refuse(profile_x, fmt::format("{} has {} places; a profile needs 2 .. {}, before and behind the contraction.",
-                                       profile_x, n, most_places));
-  for (std::size_t i = 1; i < n; ++i)
-    if (!(wall.x_um[i] > wall.x_um[i - 1]))
-      keys.refuse(profile_x,
-                  fmt::format("{} does not increase from {} to {}; give the places in the order of the flow.",
-                              profile_x, wall.x_um[i - 1], wall.x_um[i]));
-}
-
-void check_slopes(const Case& c, const KeyReading& keys) {
-  const WallTable wall = wall_radii_um(c);
-  const double steepest = steepest_wall(c);
-  for (std::size_t i = 1; i < wall.x.size(); ++i) {
-    const double length = wall.x[i] - wall.x[i - 1], change = std::abs(wall.radius[i] - wall.radius[i - 1]);
-    if (change <= (1 + rounding_of_advice) * steepest * length) continue;
-    keys.refuse(
-        wall_key(c, keys),
-        fmt::format("{} changes by {:.4g} um between x = {:.4g} and {:.4g} um: no mesh follows large cells past "
-                    "walls steeper than {:g} : 1; give this change a length of at least {:.4g} um.",
-                    radii_text(c, keys), change, wall.x[i - 1], wall.x[i], steepest, change / steepest));
-  }
-}
-
-void check_profile(const Case& c, const KeyReading& keys) {
-  if (!has_profile(keys)) return;
-  const std::string_view wall = wall_key(c, keys);
-  for (const auto& [one, other] : {std::pair{profile_x, wall}, std::pair{wall, profile_x}})
-    if (!keys.has(one))
-      keys.refuse(other, fmt::format("{} is given without {}; give both, or {} for a straight channel.", other, one,
-                                     is_duct(c.channel.section) ? "channel.width_um" : "channel.radius_um"));
-  for (const auto* straight : {"channel.width_um", "channel.radius_um"})
-    if (keys.has(straight))
-      keys.refuse(straight, fmt::format("{} and the section [channel.profile] exclude each other; give exactly one of "
-                                        "them.",
-                                        keys.stated(straight)));
-  check_places(c, keys);
-  check_slopes(c, keys);
-  const WallTable walls = wall_radii_um(c);
-  const auto [narrow, wide] = std::ranges::minmax_element(walls.radius);
-  const double least = *narrow, widest = *wide;
-  if (widest > max_widening * least)
-    keys.refuse(wall, fmt::format("{} goes from {:g} to {:g} um; the widest part may be {:g} times as "
-                                  "wide as the narrowest one.",
-                                  radii_text(c, keys), least, widest, max_widening));
-  if (c.flow.drive == Drive::rate) return;
-  const std::string_view drive = keys.has("flow.drive") ? "flow.drive" : "flow.pressure_drop_Pa";
-  keys.refuse(drive, fmt::format("{} is for straight channels; give flow.rate_ul_per_s with [channel.profile].",
-                                 keys.stated(drive)));
-}
-
 // One mirror plane is left to a cell off the axis; seen along its offset its outline is symmetric.
 void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   const std::vector<double>& offset = c.cell.offset_um;
   if (c.cell.place == CellPlace::equilibrium && is_centred(c.cell))
-    keys.refuse("cell.place", fmt::format("{} is for cells off the axis; give cell.offset_um, from where the place is "
-                                          "sought, or leave it out.",
-                                          keys.stated("cell.place")));
+    keys.refuse_stated(
+        "cell.place",
+        "is for cells off the axis; give cell.offset_um, from where the place is sought, or leave it out");
   if (offset.empty()) return;
-  constexpr std::string_view key = "cell.offset_um";
-  const auto refuse = [&](std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
-  };
+  const auto refuse = [&](std::string_view reason) { keys.refuse_stated("cell.offset_um", reason); };
   if (offset.size() != 2) refuse("must be two numbers, along the width and along the height");
   if (offset[0] != 0 && offset[1] != 0)
     refuse("is off the axis in both directions, where no symmetry is left; one of the two numbers must be 0");
@@ -159,9 +63,9 @@ void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   const auto what = c.channel.section == Section::square      ? "half width of the square"
                     : c.channel.section == Section::rectangle ? "lesser half width of the rectangle"
                                                               : "tube radius";
-  keys.refuse(
-      key, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um.", keys.stated(key),
-                       min_radius_ratio * R, max_radius_ratio * R, min_radius_ratio, max_radius_ratio, what, R));
+  keys.refuse_stated(
+      key, fmt::format("is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um", min_radius_ratio * R,
+                       max_radius_ratio * R, min_radius_ratio, max_radius_ratio, what, R));
 }
 
 // The ends of the channel must not see the cell.
@@ -172,9 +76,9 @@ void check_length(const Case& c, const KeyReading& keys) {
   const double least = 2 * R * half;
   if (*c.channel.length_um >= least) return;
   constexpr std::string_view key = "channel.length_um";
-  keys.refuse(key, fmt::format("{} is too short for the flow round the cell; it must be at least {:.4g} um, give the "
-                               "pressure drop over such a length.",
-                               keys.stated(key), std::ceil(least)));
+  keys.refuse_stated(key, fmt::format("is too short for the flow round the cell; it must be at least {:.4g} um, give "
+                                      "the pressure drop over such a length",
+                                      std::ceil(least)));
 }
 
 // A liquid interior at rest holds no shear stress: the surface must, or the liquid drags it round without end.
@@ -182,10 +86,10 @@ void check_cell_is_elastic(const Case& c, const KeyReading& keys) {
   if (c.cell.bulk.law != BulkLaw::none || c.cell.cortex.law != CortexLaw::none) return;
   constexpr std::string_view key = "cell.bulk.law";
   const bool drop = c.cell.cortex.tension_mN_per_m.value_or(0) > 0 || c.cell.cortex.bending_kBT > 0;
-  keys.refuse(key, fmt::format("{} and cell.cortex.law = \"none\" leave {}; choose a law for the bulk or the cortex.",
-                               keys.stated(key),
-                               drop ? "a drop, which circulates inside and has no stationary shape of this kind"
-                                    : "a cell without any elasticity or tension"));
+  keys.refuse_stated(key,
+                     fmt::format("and cell.cortex.law = \"none\" leave {}; choose a law for the bulk or the cortex",
+                                 drop ? "a drop, which circulates inside and has no stationary shape of this kind"
+                                      : "a cell without any elasticity or tension"));
 }
 
 // Frames are kept in memory and drawn one by one.
@@ -199,44 +103,42 @@ void check_grid(const Case& c, const KeyReading& keys) {
   if (c.time.grid_um.value_or(0) == 0) return;
   constexpr std::string_view key = "time.grid_um";
   if (surface_elements(c) > most_surface_elements)
-    keys.refuse(key,
-                fmt::format("{} makes {} elements along the surface; at most {} are possible, a size of {:.3g} um.",
-                            keys.stated(key), surface_elements(c), most_surface_elements,
-                            std::numbers::pi * c.cell.radius_um / most_surface_elements));
+    keys.refuse_stated(key,
+                       fmt::format("makes {} elements along the surface; at most {} are possible, a size of {:.3g} um",
+                                   surface_elements(c), most_surface_elements,
+                                   std::numbers::pi * c.cell.radius_um / most_surface_elements));
   const double degree = c.time.degree.value_or(max_grid_degree + 1);
   if (degree > max_grid_degree)
-    keys.refuse(key, fmt::format("{} is for low degrees; choose time.degree = 2 as in the paper, at most {:g}.",
-                                 keys.stated(key), max_grid_degree));
+    keys.refuse_stated(
+        key, fmt::format("is for low degrees; choose time.degree = 2 as in the paper, at most {:g}", max_grid_degree));
 }
 
 /// By which the sphere is stretched along x when it has its shape without stress, or starts in time.
 double first_stretch(const Case& c) { return c.time.start_stretch.value_or(1) * std::pow(c.cell.rest_aspect, 2.0 / 3); }
 
 void check_elongation(const Case& c, const KeyReading& keys, bool has_radius) {
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
-  };
   constexpr std::string_view aspect = "cell.rest_aspect", tension = "flow.axial_tension_Pa",
                              tension_profile = "channel.profile.axial_tension_Pa";
   const ChannelProfile& profile = c.channel.profile;
   if (!profile.axial_tension_Pa.empty()) {
     if (c.flow.axial_tension_Pa != 0)
-      refuse(tension, fmt::format("and {} exclude each other; give one of them", tension_profile));
+      keys.refuse_stated(tension, fmt::format("and {} exclude each other; give one of them", tension_profile));
     if (profile.axial_tension_Pa.size() != profile.x_um.size())
       keys.refuse(tension_profile,
                   fmt::format("{} has {} numbers and {} has {}; give one tension for each place.", tension_profile,
                               profile.axial_tension_Pa.size(), profile_x, profile.x_um.size()));
-    if (!has_radius) refuse(tension_profile, "is for single cells; leave it out of tables");
+    if (!has_radius) keys.refuse_stated(tension_profile, "is for single cells; leave it out of tables");
   }
-  if (!has_radius && c.flow.axial_tension_Pa != 0) refuse(tension, "is for single cells; leave it out of tables");
+  if (!has_radius && c.flow.axial_tension_Pa != 0)
+    keys.refuse_stated(tension, "is for single cells; leave it out of tables");
   if (c.cell.rest_aspect == 1) return;
-  if (!has_radius) refuse(aspect, "is for single cells; leave it out of tables");
+  if (!has_radius) keys.refuse_stated(aspect, "is for single cells; leave it out of tables");
   if (!is_centred(c.cell))
-    refuse(aspect,
-           "has no stationary shape off the axis, where the rest shape turns with the material; leave it out, or give "
-           "flow.axial_tension_Pa");
+    keys.refuse_stated(aspect,
+                       "has no stationary shape off the axis, where the rest shape turns with the material; leave it "
+                       "out, or give flow.axial_tension_Pa");
   if (c.cell.viscoelasticity == Viscoelasticity::maxwell)
-    refuse(aspect, "is for cells that remember a shape, which a Maxwell liquid does not; leave it out");
+    keys.refuse_stated(aspect, "is for cells that remember a shape, which a Maxwell liquid does not; leave it out");
 }
 
 void check_start(const Case& c, const KeyReading& keys) {
@@ -249,10 +151,9 @@ void check_start(const Case& c, const KeyReading& keys) {
   const double least = std::pow(c.cell.radius_um / (max_radius_ratio * R), 2);
   const bool is_start = c.time.start_stretch.value_or(1) < 1;
   const std::string_view key = is_start ? "time.start_stretch" : "cell.rest_aspect";
-  keys.refuse(
-      key, fmt::format("{} widens the cell to a radius of {:.4g} um in a channel of {:.4g} um; take at least {:.3g}.",
-                       keys.stated(key), widest, R,
-                       is_start ? least * *c.time.start_stretch / stretch : std::pow(least, 1.5)));
+  keys.refuse_stated(
+      key, fmt::format("widens the cell to a radius of {:.4g} um in a channel of {:.4g} um; take at least {:.3g}",
+                       widest, R, is_start ? least * *c.time.start_stretch / stretch : std::pow(least, 1.5)));
 }
 
 void check_viscoelasticity(const Case& c, const KeyReading& keys) {
@@ -260,11 +161,9 @@ void check_viscoelasticity(const Case& c, const KeyReading& keys) {
   const auto kind = c.cell.viscoelasticity.value_or(Viscoelasticity::kelvin_voigt);
   if (kind == Viscoelasticity::kelvin_voigt) return;
   if (c.cell.bulk.law == BulkLaw::none)
-    keys.refuse(key, fmt::format("{} is for an elastic interior, and cell.bulk.law is \"none\"; leave it out.",
-                                 keys.stated(key)));
+    keys.refuse_stated(key, "is for an elastic interior, and cell.bulk.law is \"none\"; leave it out");
   if (kind == Viscoelasticity::maxwell && c.cell.bulk.law != BulkLaw::neo_hookean)
-    keys.refuse(key,
-                fmt::format("{} has a neo-Hookean spring; choose cell.bulk.law = \"neo-hookean\".", keys.stated(key)));
+    keys.refuse_stated(key, "has a neo-Hookean spring; choose cell.bulk.law = \"neo-hookean\"");
 }
 
 void check_outputs(const Case& c, const KeyReading& keys) {
@@ -277,17 +176,16 @@ void check_outputs(const Case& c, const KeyReading& keys) {
   const double every = by_place ? *c.time.output_every_um : *c.time.output_every_us, outputs = end / every;
   if (outputs <= max_outputs) return;
   const auto* key = ends_at_place ? "time.end_um" : "time.end_us";
-  keys.refuse(key, fmt::format("{} and time.output_every_{} = {:g} ask for {:.3g} outputs; at most {:g} are possible.",
-                               keys.stated(key), by_place ? "um" : "us", every, outputs, max_outputs));
+  keys.refuse_stated(key,
+                     fmt::format("and time.output_every_{} = {:g} ask for {:.3g} outputs; at most {:g} are possible",
+                                 by_place ? "um" : "us", every, outputs, max_outputs));
 }
 
 void check_time(const Case& c, const KeyReading& keys) {
   if (c.flow.drive == Drive::controlled_pressure && c.time.scheme != TimeScheme::partitioned)
-    keys.refuse(
-        "flow.drive",
-        fmt::format("{} adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
-                    "a given flow rate is met exactly.",
-                    keys.stated("flow.drive")));
+    keys.refuse_stated("flow.drive",
+                       "adapts the pressure step by step, which is for time.scheme = \"partitioned\" only; remove it, "
+                       "a given flow rate is met exactly");
   if (c.time.scheme == TimeScheme::stationary) return;
   check_grid(c, keys);
   check_outputs(c, keys);

@@ -17,4 +17,11 @@ inline std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
+/// The lines of a text, whether or not the last one has its end.
+inline std::vector<std::string> text_lines(std::string_view text) {
+  std::vector<std::string> lines = split(text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
+}
+
 }  // namespace rheocyte

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "duct/cortex_points.h"
 #include "fem/surface_tables.h"
-#include "laws/bending_form.h"
 
 namespace rheocyte {
 namespace {
@@ -27,50 +27,6 @@ FaceTables face_tables(const ReferenceElement<2>& reference, const VectorXd& at_
   };
   return {product(1, 0), product(0, 1), product(2, 0), product(1, 1), product(0, 2)};
 }
-
-template <class T, std::size_t count>
-Vector<T> part(const std::array<T, count>& numbers, int index) {
-  return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
-}
-
-/// Energies at a point, of the numbers of its parts.
-struct ShellAtPoint {
-  MembranePoint membrane;
-
-  template <class T>
-  T operator()(const std::array<T, 6>& numbers) const {
-    return membrane(numbers);
-  }
-};
-
-struct BentShellAtPoint {
-  MembranePoint membrane;
-
-  template <class T>
-  T operator()(const std::array<T, 15>& n) const {
-    const SurfaceSlopes<T> slopes{part(n, 0), part(n, 1), part(n, 2), part(n, 3), part(n, 4)};
-    return membrane(MembraneFields<T>{slopes.a, slopes.b}) + BendingPoint{membrane.law}(slopes);
-  }
-};
-
-/// What an energy does on its numbers, and the load that has none.
-template <class Energy, class T, std::size_t count>
-std::array<T, count> work_of(const Energy& energy, const std::array<T, count>& numbers) {
-  std::array<T, count> work = value_and_slopes(energy, numbers).second;
-  if constexpr (requires { energy.pull(numbers); }) work[0] = work[0] - energy.pull(numbers);
-  return work;
-}
-
-struct BentEdgeAtPoint {
-  BendingEdge edge;
-
-  template <class T>
-  T operator()(const std::array<T, 24>& n) const {
-    const Vector<T> a = part(n, 0), aa = part(n, 1);
-    return edge(SurfaceSlopes<T>{a, part(n, 2), aa, part(n, 3), part(n, 4)},
-                SurfaceSlopes<T>{a, part(n, 5), aa, part(n, 6), part(n, 7)});
-  }
-};
 
 }  // namespace
 
@@ -269,7 +225,7 @@ void DuctCortex::integrate(int index, const Cortex& law, const VectorXd& unknown
     integrate<6>(
         patch,
         [&](int q) {
-          return ShellAtPoint{{law, patch.rest_metric[q].at_rest(law.rest_stretch)}};
+          return MembranePoint{law, patch.rest_metric[q].at_rest(law.rest_stretch)};
         },
         unknowns, want, system);
   }

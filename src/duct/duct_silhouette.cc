@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "duct/farthest_place.h"
+#include "duct/outline_off_axis.h"
 #include "numeric/roots.h"
 #include "shape/curve.h"
 
@@ -14,9 +15,6 @@ namespace rheocyte {
 namespace {
 
 constexpr double right_angle = std::numbers::pi / 2;
-/// Of an outline that is no line of the mesh.
-constexpr int off_axis_pieces = 48;
-constexpr double direction_step = std::numbers::pi / off_axis_pieces;
 /// Of a contour's pieces at least: arcs of the sphere then are round to 1e-12.
 constexpr int contour_degree = 9;
 
@@ -154,68 +152,15 @@ class Envelope {
   double last_angle_;
 };
 
-/// Direction of the outline's normal in the image plane, 0 in front.
-DuctPoint direction_at(const View& view, double angle) {
-  return std::cos(angle) * DuctPoint::UnitX() + std::sin(angle) * view.across;
-}
-
 /// Of a cell off the axis: the places that lie farthest in the directions from front to rear.
 Pieces farthest_places(const DuctSurfaceMap& surface, const View& view, const VectorXd& along) {
   const FarthestPlace farthest(surface);
   Pieces result(off_axis_pieces);
   for (int i = 0; i < off_axis_pieces; ++i) {
     for (const double u : along)
-      result[i].push_back(farthest(direction_at(view, std::numbers::pi * (i + u) / off_axis_pieces)));
+      result[i].push_back(farthest(outline_direction(view.across, std::numbers::pi * (i + u) / off_axis_pieces)));
   }
   return result;
-}
-
-/// Points that lie farthest in so many directions in the image plane of x and `across`, from the front on.
-std::vector<Eigen::Vector2d> farthest_points(const DuctSurfaceMap& surface, const DuctPoint& across, int directions) {
-  const FarthestPlace farthest(surface);
-  std::vector<Eigen::Vector2d> points;
-  for (int i = 0; i < directions; ++i) {
-    const double angle = i * direction_step;
-    const DuctPoint x = surface.point(farthest(std::cos(angle) * DuctPoint::UnitX() + std::sin(angle) * across));
-    points.emplace_back(x(0), across.dot(x));
-  }
-  return points;
-}
-
-/// A parabola from one point to the next, which lie farthest in the direction `angle` and a step before: its tangents
-/// are at right angles to them. Straight where the way does not lie between the tangents: beside an edge of the
-/// surface, whose places are known along it to some 1e-6 only.
-CurvePiece parabola(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double angle) {
-  const auto direction = [](double a) { return Eigen::Vector2d(std::cos(a), std::sin(a)); };
-  const auto tangent = [](double a) { return Eigen::Vector2d(-std::sin(a), std::cos(a)); };
-  const Eigen::Vector2d way = to - from;
-  const double before = angle - direction_step, forth = way.dot(direction(angle)) / std::sin(direction_step),
-               back = -way.dot(direction(before)) / std::sin(direction_step);
-  Eigen::Vector2d corner = (from + to) / 2;
-  if (forth >= 0 && back >= 0) corner = from + forth * tangent(before);
-  CurvePiece piece(3, 2);
-  piece << from.transpose(), (from + 2 * corner + to).transpose() / 4, to.transpose();
-  return piece;
-}
-
-/// Their outline. Where faces of the surface meet in an edge, however blunt, neighbouring directions have the same
-/// place, and nothing lies between them.
-std::vector<CurvePiece> outline_of(const std::vector<Eigen::Vector2d>& points) {
-  std::vector<CurvePiece> outline;
-  Eigen::Vector2d from = points.front();
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if ((points[i] - from).norm() < same_place) continue;
-    outline.push_back(parabola(from, points[i], double(i) * direction_step));
-    from = points[i];
-  }
-  return outline;
-}
-
-/// Half of one that is symmetric.
-Contour off_axis_contour(const DuctSurfaceMap& surface, const View& view) {
-  std::vector<Eigen::Vector2d> points = farthest_points(surface, view.across, off_axis_pieces + 1);
-  points.front()(1) = points.back()(1) = 0;
-  return {outline_of(points)};
 }
 
 Pieces silhouette(const DuctSurfaceMap& surface, const View& view, const VectorXd& along) {
@@ -261,7 +206,7 @@ Eigen::Vector2d curvatures(const SurfaceJet& now, const DuctPoint& sight) {
 Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
   const DuctSurfaceMap surface(space, unknowns);
   const View view = view_of(space, camera);
-  if (space.turns()) return off_axis_contour(surface, view);
+  if (space.turns()) return off_axis_contour(surface, view.across);
   Contour contour;
   const VectorXd& along = lobatto_nodes(std::max(space.reference().degree(), contour_degree));
   for (const auto& places : silhouette(surface, view, along)) {
@@ -275,18 +220,6 @@ Contour duct_contour(const DuctSpace& space, const VectorXd& unknowns, Camera ca
   contour.pieces.front()(0, 1) = 0;
   contour.pieces.back()(contour.pieces.back().rows() - 1, 1) = 0;
   return contour;
-}
-
-Eigen::MatrixX2d duct_offset_outline(const DuctSpace& space, const VectorXd& unknowns) {
-  const DuctSurfaceMap surface(space, unknowns);
-  const std::vector<CurvePiece> pieces =
-      outline_of(farthest_points(surface, DuctPoint::UnitY(), 2 * off_axis_pieces + 1));
-  constexpr int corners_per_piece = 8;
-  const VectorXd along = VectorXd::LinSpaced(corners_per_piece, 0, 1 - 1.0 / corners_per_piece);
-  Eigen::MatrixX2d outline(Eigen::Index(pieces.size()) * corners_per_piece, 2);
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    outline.middleRows(Eigen::Index(i) * corners_per_piece, corners_per_piece) = evaluate(pieces[i], along);
-  return outline;
 }
 
 DuctMeridian duct_meridian(const DuctSpace& space, const VectorXd& unknowns, Camera camera, const VectorXd& parameters,

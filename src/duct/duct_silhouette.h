@@ -12,11 +12,6 @@ namespace rheocyte {
 /// Half of an outline that is symmetric about the axis, as the cell keeps its shape under half a turn about it.
 Contour duct_contour(const DuctSpace&, const VectorXd& unknowns, Camera);
 
-/// Convex outline of a cell off the axis in the plane of the flow and its offset, which a camera at right angles to
-/// both sees: a closed polygon from the front on, counterclockwise, (x, y along the offset) in h, as in the mesh. Its
-/// corners lie on parabolas between the places that lie farthest in 96 directions.
-Eigen::MatrixX2d duct_offset_outline(const DuctSpace&, const VectorXd& unknowns);
-
 /// The surface along the silhouette at parameters in [0, 1] of each piece, front pole first; columns: along it, across.
 struct DuctMeridian {
   VectorXd rest_angle;     ///< of the undeformed point, from the flow direction

@@ -12,9 +12,9 @@
 #include "extract/common_errors.h"
 #include "extract/fitting_table.h"
 #include "extract/soft_ends.h"
+#include "extract/virtual_cells.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
-#include "synth/virtual_recording.h"
 
 namespace rheocyte {
 
@@ -22,8 +22,6 @@ namespace {
 
 constexpr std::size_t block_of_scalars = 1 << 15;   // its columns stay in fast memory; chunks of 1 MiB are kept by HDF5
 constexpr std::size_t block_of_outlines = 1 << 12;  // progress stays visible when every event takes microseconds
-/// Of a block, whose moduli by another table tell more than enough of how far the two tables differ.
-constexpr std::size_t most_compared = 1 << 12;
 
 PixelUse pixel_use(const ExtractOptions& options) {
   if (options.no_pixelation) return PixelUse::ignore;
@@ -45,7 +43,7 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
     : tables_(tables),
       events_(recording, options.measuring, {.pixels = pixel_use(options)}),
       table_(tables.used(conditions().flow.exponent)),
-      other_table_(tables.other(conditions().flow.exponent)),
+      comparison_(table_, tables.other(conditions().flow.exponent)),
       are_square_(tables.are_square()),
       event_shapes_(recording, conditions(),
                     EventShapes::are_measured(recording) ? shape_tables(tables, conditions().flow.exponent)
@@ -55,11 +53,9 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
   if (table_.is_rheocyte_table()) standard_errors_.reserve(recording.events());
 }
 
-void Extraction::Columns::resize(std::size_t count, std::size_t compared) {
+void Extraction::Columns::resize(std::size_t count) {
   for (auto* const column : {&area, &deformation, &modulus, &standard_error}) column->resize(count);
   states.resize(count);
-  other_modulus.resize(compared);
-  other_states.resize(compared);
 }
 
 std::size_t Extraction::block() const {
@@ -71,18 +67,12 @@ std::size_t Extraction::block() const {
 
 EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   Columns& c = columns_;
-  const std::size_t compared = other_table_ ? std::min(count, most_compared) : 0;
-  c.resize(count, compared);
+  c.resize(count);
   events_.read(first, count);
   events_.stored_shapes().read(first, c.area, c.deformation);
   const auto viscosity = events_.viscosity_mPas();
   const MeasuredEvents events{c.area, c.deformation, viscosity};
-  if (other_table_) {
-    const auto of_some = [&](std::span<const double> column) { return column.first(compared); };
-    // Its standard errors are overwritten by those that count.
-    other_table_->estimate(conditions(), {of_some(c.area), of_some(c.deformation), of_some(viscosity)},
-                           {c.other_modulus, std::span(c.standard_error).first(compared), c.other_states});
-  }
+  comparison_.estimate(conditions(), events);
   table().estimate(conditions(), events, {c.modulus, c.standard_error, c.states});
   const Moduli moduli{c.modulus, c.standard_error, c.states};
   add_inertia_error(moduli);
@@ -146,7 +136,8 @@ ExtractSummary Extraction::summary() {
   s.shapes.beside_axis = shape_tally_.beside_axis(s.direction, conditions().flow);
   s.shapes.missing = event_shapes_.missing();
   if (const ShapeMap* const map = event_shapes_.map()) s.shapes.model = map->origin().cells();
-  s.shapes.made_of = made_of();
+  s.shapes.made_of = cells_made_of(events_.facts().made_of, events_.recording().metadata(), tables_, table(),
+                                   conditions().flow.exponent);
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
   s.shapes.has_elongated_table = event_shapes_.elongated_by().has_value();
   add_common_errors(s);
@@ -155,7 +146,7 @@ ExtractSummary Extraction::summary() {
     s.shapes.other = fitting_table(tables_, conditions(), shape_tally_.judged());
   s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
-  if (other_table_) s.warnings.push_back(comparison());
+  if (comparison_.is_made()) s.warnings.push_back(comparison_.sentence(conditions().flow.exponent));
   if (events_.recording().has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
@@ -169,40 +160,6 @@ void Extraction::add_soft_ends(ExtractSummary& s) const {
   if (const ElongatedLiquid* const elongated = event_shapes_.elongated_table())
     s.shapes.by_elongation.soft_end_kPa =
         softest_modulus_kPa(*elongated, conditions(), softer.elongated, s.mean_viscosity_mPas);
-}
-
-namespace {
-
-std::string_view words_of(std::optional<Elongation> elongation) {
-  if (!elongation) return "";
-  return *elongation == Elongation::by_tension ? " under an axial tension" : " that are longer than wide at rest";
-}
-
-bool has_cells(const ElongatedLiquid* table, const std::string& cells, Elongation elongation) {
-  if (!table) return false;
-  const ElongatedTable& content = table->solids().table();
-  return content.elongation() == elongation && content.origin().cells() == cells;
-}
-
-}  // namespace
-
-// What a virtual recording says of its cells, and which table has such ones.
-std::string Extraction::made_of() const {
-  const std::string& cells = events_.facts().made_of;
-  if (cells.empty()) return {};
-  const double exponent = conditions().flow.exponent;
-  const auto elongation = elongation_of_cells(events_.recording().metadata());
-  const std::string made = fmt::format("made by rheocyte synth from {}{}", one_line(cells, 100), words_of(elongation)),
-                    used = table().origin().identifier;
-  if (elongation && has_cells(tables_.elongated(exponent), cells, *elongation))
-    return made + "; the table of elongated cells fits.";
-  if (!elongation && cells == table().origin().cells()) return fmt::format("{}; the table {} fits.", made, used);
-  for (const ModulusMap* const other : tables_.others(exponent))
-    if (!elongation && cells == other->origin().cells())
-      return fmt::format("{}; the table {} fits, the moduli given here are from {}.", made, other->origin().identifier,
-                         used);
-  return fmt::format("{}; no table that comes with the program has such cells, the moduli given here are from {}.",
-                     made, used);
 }
 
 // Where many cells are softer than the table's last ones.
@@ -239,22 +196,6 @@ std::string Extraction::settings_hash() const {
                                 event_shapes_.elongated_by() == ElongatedBy::modes ? "outlines" : "inertia ratio",
                                 decisive_line(elongated->solids().origin())));
   return rheocyte::settings_hash(lines);
-}
-
-// Where a table of the matching liquid and one of a Newtonian liquid are at hand, both are used.
-std::string Extraction::comparison() const {
-  const auto way = [](const ModulusMap& table) {
-    const std::string& name = table.origin().identifier;
-    const double exponent = table.origin().flow.exponent;
-    return exponent < 1 ? fmt::format("{} (its liquid has the exponent {:.3g})", name, exponent)
-                        : fmt::format("{} with the effective viscosity", name);
-  };
-  const std::string text = fmt::format("the medium is shear-thinning (exponent {:.3g}); moduli are from {}",
-                                       conditions().flow.exponent, way(table()));
-  if (compared_ == 0) return text + ".";
-  const double percent = 100 * std::expm1(log_ratios_ / static_cast<double>(compared_));
-  return fmt::format("{}; those from {} are {:.1f} % {} (geometric mean of {} events).", text, way(*other_table_),
-                     std::abs(percent), percent < 0 ? "smaller" : "greater", compared_);
 }
 
 void Extraction::collect() {
@@ -318,9 +259,7 @@ void Extraction::leave_out(std::size_t i, ModulusState why) {
 void Extraction::take_modulus(std::size_t i) {
   moduli_.push_back(columns_.modulus[i]);
   if (table().is_rheocyte_table()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
-  if (i >= columns_.other_states.size() || !has_modulus(columns_.other_states[i])) return;
-  log_ratios_ += std::log(columns_.other_modulus[i] / columns_.modulus[i]);
-  ++compared_;
+  comparison_.take(i, columns_.modulus[i]);
 }
 
 }  // namespace rheocyte

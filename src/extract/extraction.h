@@ -10,6 +10,7 @@
 #include "extract/event_shapes.h"
 #include "extract/extract_summary.h"
 #include "extract/shape_tally.h"
+#include "extract/table_comparison.h"
 #include "measurement/recording.h"
 #include "shelf/modulus_tables.h"
 
@@ -48,16 +49,14 @@ class Extraction {
 
  private:
   struct Columns {
-    std::vector<double> area, deformation, modulus, standard_error, other_modulus;
-    std::vector<ModulusState> states, other_states;
+    std::vector<double> area, deformation, modulus, standard_error;
+    std::vector<ModulusState> states;
     ShapeColumns shapes;
-    void resize(std::size_t count, std::size_t compared);
+    void resize(std::size_t count);
   };
 
   std::string settings_hash() const;
-  std::string comparison() const;
   std::string beyond_the_square() const;
-  std::string made_of() const;
   void add_soft_ends(ExtractSummary& summary) const;
   void collect();
   /// Young's moduli of the events of a block, and what is said about them.
@@ -77,16 +76,16 @@ class Extraction {
   const ModulusTables& tables_;
   EventReader events_;
   const ModulusMap& table_;
-  const ModulusMap* other_table_;  ///< to compare with
-  bool are_square_;                ///< the tables, of which those of the tube reach farther
+  TableComparison comparison_;
+  bool are_square_;  ///< the tables, of which those of the tube reach farther
   EventShapes event_shapes_;
   ShapeTally shape_tally_;
   Columns columns_;
   ExtractSummary summary_;
   std::vector<double> moduli_;
   std::vector<float> standard_errors_;
-  double viscosity_sum_ = 0, log_ratios_ = 0;
-  std::size_t viscosities_ = 0, compared_ = 0;
+  double viscosity_sum_ = 0;
+  std::size_t viscosities_ = 0;
 };
 
 }  // namespace rheocyte

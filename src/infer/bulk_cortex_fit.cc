@@ -1,8 +1,5 @@
 #include "infer/bulk_cortex_fit.h"
 
-#include <ceres/tiny_solver.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,6 +9,8 @@
 #include <utility>
 
 #include "infer/moduli_misfit.h"
+#include "numeric/dense_solve.h"
+#include "numeric/minimise_squares.h"
 
 namespace rheocyte {
 
@@ -52,47 +51,6 @@ Moduli moduli_at(const CellCoordinates& cell, const CombinedState& state) {
 }
 
 }  // namespace
-
-std::string_view name_of(ModuliStatus status) {
-  switch (status) {
-    case ModuliStatus::no_data: return "no-data";
-    case ModuliStatus::resolved: return "resolved";
-    case ModuliStatus::not_told_apart: return "not-told-apart";
-    case ModuliStatus::outside_table: return "outside-table";
-    case ModuliStatus::poor_fit: return "poor-fit";
-    case ModuliStatus::gated: return "gated";
-    case ModuliStatus::cut: return "cut-by-the-edge";
-    case ModuliStatus::count: break;
-  }
-  return "";
-}
-
-double ModuliEstimate::error(Modulus m) const { return std::sqrt(covariance(int(m), int(m))); }
-
-std::string sentence(const ModuliEstimate& e) {
-  const auto stated = [&](Modulus m, std::string_view name, std::string_view unit) {
-    return fmt::format("{} = {:.3g} +- {:.2g} {}", name, e.value(m), e.error(m), unit);
-  };
-  switch (e.status) {
-    case ModuliStatus::no_data: return "There is no shape, or no error of it.";
-    case ModuliStatus::outside_table: return "No cell of the table has such a shape.";
-    case ModuliStatus::gated: return "The event lies outside the limits that were set.";
-    case ModuliStatus::cut: return "The outline touches the edge of the picture: it is not that of the whole cell.";
-    case ModuliStatus::poor_fit:
-      return fmt::format(
-          "The nearest cell of the table differs from the shape by more than its errors "
-          "(chi2 = {:.3g} at {} degrees of freedom).",
-          e.chi_squared, e.freedom);
-    case ModuliStatus::resolved:
-      return fmt::format("{}, {}.", stated(Modulus::young, "E", "kPa"), stated(Modulus::cortex, "E2D", "mN/m"));
-    case ModuliStatus::not_told_apart:
-    case ModuliStatus::count: break;
-  }
-  std::string known = fmt::format("E + E2D / r0 = {:.3g} +- {:.2g} kPa", e.stiffness_kPa, e.stiffness_error_kPa);
-  if (e.is_known[std::size_t(Modulus::young)]) known += ", " + stated(Modulus::young, "E", "kPa");
-  if (e.is_known[std::size_t(Modulus::cortex)]) known += ", " + stated(Modulus::cortex, "E2D", "mN/m");
-  return fmt::format("The data do not tell the moduli apart; what they tell is {}.", known);
-}
 
 std::vector<int> features_of_figure() {
   return {int(ShapeFeature::area_um2), int(ShapeFeature::deformation), int(ShapeFeature::moment_ratio)};
@@ -151,15 +109,13 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
   CellCoordinates cell = start;
   const CellBox& box = table_.box();
   const CellCoordinates width = widths(box);
-  ceres::TinySolver<ModuliMisfit> solver;
-  solver.options.function_tolerance = 1e-9;
-  solver.options.max_num_iterations = 100;
+  const auto residuals = [&](const Eigen::VectorXd& x, Eigen::MatrixXd* slopes) { return misfit.residuals(x, slopes); };
   while (true) {
     misfit.set_free(free, cell);
     Eigen::VectorXd x = misfit.parameters();
-    const auto& summary = solver.Solve(misfit, &x);
-    cell = misfit.cell_at(x.data());
-    if (!cell.allFinite() || !std::isfinite(summary.final_cost)) return {start, HUGE_VAL};
+    const double chi_squared = minimise_squares(residuals, x);
+    cell = misfit.cell_at(x);
+    if (!cell.allFinite() || !std::isfinite(chi_squared)) return {start, HUGE_VAL};
     const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
                           beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
     const auto outside = [&](int coordinate) {
@@ -169,7 +125,7 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
     if (outside(*farthest) == 0) {
       // Without a cortex no ratio is better than another, and errors depend on it.
       if (options_.free_tension && cell(x_fraction) == 0) cell(x_ratio) = middle_ratio();
-      return {cell, 2 * summary.final_cost};
+      return {cell, chi_squared};
     }
     cell(*farthest) = held(*farthest);
     free.erase(farthest);
@@ -181,16 +137,15 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
 CellCoordinates BulkCortexFit::with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start) {
   CellCoordinates best = start;
   double least = HUGE_VAL;
-  Eigen::VectorXd residual(misfit.NumResiduals());
   misfit.set_free({x_progress}, start);
   const Eigen::VectorXd at_start = misfit.parameters();
   for (const double change_of_logarithm : {0.0, -0.8, -0.4, 0.4, 0.8}) {
     misfit.set_free({x_progress}, start);  // each search for a progress begins there
     const Eigen::VectorXd x = at_start.array() + change_of_logarithm;
-    misfit(x.data(), residual.data(), nullptr);
-    if (residual.squaredNorm() >= least) continue;
-    least = residual.squaredNorm();
-    best = misfit.cell_at(x.data());
+    const double chi_squared = misfit.residuals(x).squaredNorm();
+    if (chi_squared >= least) continue;
+    least = chi_squared;
+    best = misfit.cell_at(x);
   }
   return best;
 }
@@ -287,7 +242,7 @@ BulkCortexFit::Covariance BulkCortexFit::covariance_at(const ModuliMisfit& misfi
     information.col(x).setZero();
     information(x, x) = 1;
   }
-  Covariance covariance = information.inverse();
+  Covariance covariance = dense_inverse(information);
   for (const int x : known) covariance(x, x) = 0;
   return covariance;
 }

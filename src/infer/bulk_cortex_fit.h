@@ -1,35 +1,16 @@
 // Moduli of bulk and cortex, and the tension, of one cell from its shape, by least squares on a combined table
 // (docs/theory-extract.md, sec. "several moduli").
 #pragma once
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "case/channel_flow.h"
-#include "numeric/no_value.h"
+#include "infer/moduli_estimate.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
-
-enum class Modulus { young, cortex, tension, count };
-inline constexpr int modulus_count = int(Modulus::count);
-
-enum class ModuliStatus {
-  no_data,         ///< a feature, its error or a condition of the flow is not a number
-  resolved,        ///< every modulus that is asked for is known to better than a factor of two
-  not_told_apart,  ///< one of them is not, though the stiffness as a whole may be
-  outside_table,   ///< no cell of the table has such a shape
-  poor_fit,        ///< the nearest cell of the table differs from the shape by more than the errors allow
-  gated,           ///< outside the limits that the user has set; nothing was fitted
-  cut,             ///< the outline touches the edge of the picture: it is not that of the whole cell
-  count
-};
-inline constexpr int moduli_status_count = int(ModuliStatus::count);
-std::string_view name_of(ModuliStatus status);
 
 /// What is known of the tension of the liquid along the flow by which cells are elongated (docs/theory.md,
 /// eq:axial-tension). Only tables of elongated cells have one.
@@ -38,29 +19,6 @@ struct AxialTension {
   double error_Pa = 0;  ///< standard error; infinite: nothing is known, and it is fitted with each cell
   static AxialTension unknown() { return {0, HUGE_VAL}; }
 };
-
-struct ModuliEstimate {
-  ModuliStatus status = ModuliStatus::no_data;
-  /// Young's modulus (kPa), E2D (mN/m), tension (mN/m), and their covariance.
-  Eigen::Vector3d modulus = Eigen::Vector3d::Constant(no_value);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(no_value);
-  std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
-  double stiffness_kPa = no_value,
-         stiffness_error_kPa = stiffness_kPa;                             ///< E + E2D / r0
-  double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;  ///< of the liquid; 0 in tables of round cells
-  CellCoordinates cell = CellCoordinates::Zero();                         ///< in the table's channel
-  double chi_squared = no_value;
-  int freedom = 0;
-  double section_factor = 1;  ///< c_3 over that of such a cell in the tube, where the channel is square
-
-  double value(Modulus m) const { return modulus(int(m)); }
-  double error(Modulus m) const;
-};
-/// 90 % of the estimates lie between half and twice the value.
-inline constexpr double max_relative_error = 0.42;
-
-/// One plain sentence for the user.
-std::string sentence(const ModuliEstimate& estimate);
 
 struct MeasuredShape {
   ShapeVector features;  ///< with ln(volume / um3) in place of ln(area) if the size is a volume

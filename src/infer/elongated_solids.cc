@@ -9,6 +9,7 @@
 #include "infer/smooth_events.h"
 #include "laws/uniaxial.h"
 #include "measurement/pixel_errors.h"
+#include "numeric/dense_solve.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
@@ -139,7 +140,7 @@ ElongatedSolids::Found ElongatedSolids::find(const Eigen::Vector3d& seen, Elonga
   for (int step = 0; step < most_steps && change > settled; ++step) {
     found.state = table_.at(found.cell);
     found.slopes = slopes_of(found.state, by);
-    const Eigen::Vector3d move = found.slopes.partialPivLu().solve(seen - seen_of(found.state, by));
+    const Eigen::Vector3d move = solve_dense(found.slopes, seen - seen_of(found.state, by));
     if (!move.allFinite()) return found.reason = ModulusState::unresolved, found;
     const ElongatedCell next = (found.cell + move).cwiseMax(low).cwiseMin(high);
     change = (next - found.cell).cwiseAbs().maxCoeff();

@@ -47,24 +47,24 @@ void ModuliMisfit::set_free(std::vector<int> free, const CellCoordinates& cell) 
 }
 
 Eigen::VectorXd ModuliMisfit::parameters() const {
-  Eigen::VectorXd parameters(NumParameters());
+  Eigen::VectorXd parameters(free_.size());
   for (std::size_t i = 0; i < free_.size(); ++i) parameters(Eigen::Index(i)) = cell_(free_[i]);
   if (table_.is_elongated()) parameters(progress_parameter()) = last_.state.value(log_stiffness_row);
   return parameters;
 }
 
-ModuliMisfit::Place ModuliMisfit::place(const double* parameters) const {
-  Place place{cell_, {}, Eigen::MatrixXd::Zero(coordinate_count, NumParameters())};
+ModuliMisfit::Place ModuliMisfit::place(const Eigen::VectorXd& parameters) const {
+  Place place{cell_, {}, Eigen::MatrixXd::Zero(coordinate_count, parameters.size())};
   for (std::size_t i = 0; i < free_.size(); ++i) {
     place.by_parameters(free_[i], Eigen::Index(i)) = 1;
-    place.cell(free_[i]) = parameters[i];
+    place.cell(free_[i]) = parameters(Eigen::Index(i));
   }
   if (!table_.is_elongated()) {
     place.state = table_.at(place.cell);
     return place;
   }
   const Eigen::Index progress = progress_parameter();
-  const double log_stiffness = parameters[progress];
+  const double log_stiffness = parameters(progress);
   if (follows_tension_) {
     place.cell(x_axial) = 1e-3 * tension_.value_Pa * std::exp(-log_stiffness);
     place.by_parameters(x_axial, progress) = -place.cell(x_axial);
@@ -103,12 +103,12 @@ CombinedState ModuliMisfit::meet_stiffness(double log_stiffness, CellCoordinates
   }
 }
 
-bool ModuliMisfit::operator()(const double* parameters, double* residuals, double* jacobian) const {
+Eigen::VectorXd ModuliMisfit::residuals(const Eigen::VectorXd& parameters, Eigen::MatrixXd* slopes) const {
   const Place at = place(parameters);
   Jacobian all;
-  Eigen::Map<Eigen::VectorXd>(residuals, NumResiduals()) = evaluate(at.cell, at.state, all);
-  if (jacobian) Eigen::Map<Eigen::MatrixXd>(jacobian, NumResiduals(), NumParameters()) = all * at.by_parameters;
-  return true;
+  Eigen::VectorXd residuals = evaluate(at.cell, at.state, all);
+  if (slopes) *slopes = all * at.by_parameters;
+  return residuals;
 }
 
 Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, const CombinedState& state,
@@ -116,8 +116,8 @@ Eigen::VectorXd ModuliMisfit::evaluate(const CellCoordinates& cell, const Combin
   const auto n = Eigen::Index(features_.size());
   const CellBox& box = table_.box();
   const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest), beyond = cell - held;
-  Eigen::VectorXd residual = Eigen::VectorXd::Zero(NumResiduals());
-  jacobian = Jacobian::Zero(NumResiduals(), coordinate_count);
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(n + coordinate_count + 1);
+  jacobian = Jacobian::Zero(residual.size(), coordinate_count);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto [value, gradient] = feature(features_[std::size_t(i)], cell, state);
     residual(i) = value - measured_(i);

@@ -13,14 +13,12 @@ namespace rheocyte {
 /// Ranges of the coordinates; one where there is none.
 CellCoordinates widths(const CellBox& box);
 
-/// Residuals of the chosen features, over the free coordinates, in the form that ceres::TinySolver wants. Behind them
-/// stand what it costs to leave the table, and, where cells are elongated, what is known of the tension. There ln of
-/// the stiffness stands for the progress: the tension over it then is a known number, where in the coordinates of the
-/// table a known tension is a bent valley, so narrow that no minimiser gets along it.
+/// Residuals of the chosen features, over the free coordinates. Behind them stand what it costs to leave the table,
+/// and, where cells are elongated, what is known of the tension. There ln of the stiffness stands for the progress: the
+/// tension over it then is a known number, where in the coordinates of the table a known tension is a bent valley, so
+/// narrow that no minimiser gets along it.
 class ModuliMisfit {
  public:
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, coordinate_count>;
 
   enum class TensionIs { known, fitted };
@@ -31,17 +29,16 @@ class ModuliMisfit {
 
   bool is_usable() const { return measured_.allFinite() && whitening_.size() > 0; }
   const MeasuredShape& shape() const { return shape_; }
-  int NumResiduals() const { return int(features_.size()) + coordinate_count + 1; }
-  int NumParameters() const { return int(free_.size()); }
 
   /// The coordinates that are fitted, the progress among them; the others stay as in `cell`, and the axial ratio
   /// follows a known tension.
   void set_free(std::vector<int> free, const CellCoordinates& cell);
   /// Those of the cell.
   Eigen::VectorXd parameters() const;
-  CellCoordinates cell_at(const double* parameters) const { return place(parameters).cell; }
+  CellCoordinates cell_at(const Eigen::VectorXd& parameters) const { return place(parameters).cell; }
 
-  bool operator()(const double* parameters, double* residuals, double* jacobian) const;
+  /// With their slopes by the parameters, where they are wanted.
+  Eigen::VectorXd residuals(const Eigen::VectorXd& parameters, Eigen::MatrixXd* slopes = nullptr) const;
 
   /// What the features and the tension tell of a cell, without the fence: J^T J.
   Eigen::Matrix<double, coordinate_count, coordinate_count> information(const CellCoordinates& cell) const;
@@ -52,7 +49,7 @@ class ModuliMisfit {
     CombinedState state;
     Eigen::Matrix<double, coordinate_count, Eigen::Dynamic> by_parameters;
   };
-  Place place(const double* parameters) const;
+  Place place(const Eigen::VectorXd& parameters) const;
   Eigen::Index progress_parameter() const { return std::ranges::find(free_, x_progress) - free_.begin(); }
   /// Moves the progress there, from where the last cell lets expect it; the state.
   CombinedState meet_stiffness(double log_stiffness, CellCoordinates& cell) const;

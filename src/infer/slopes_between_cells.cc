@@ -1,11 +1,16 @@
 #include "infer/slopes_between_cells.h"
 
-#include <Eigen/Dense>
+#include <array>
 #include <cmath>
+
+#include "numeric/dense_solve.h"
 
 namespace rheocyte {
 
 namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 constexpr int mode_2_row = first_mode_row;
 constexpr Eigen::Index log_area = 0, mode_2 = 1;  // of CellModes
@@ -45,31 +50,30 @@ class NoisyLine {
  private:
   /// Less so much of the noise.
   Regression without(double part) const {
-    const Eigen::Matrix3d known = part * noise_of_known_;
-    const Eigen::Vector3d both = part * noise_of_both_;
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(value_.size());
+    const MatrixXd known = part * noise_of_known_;
+    const VectorXd both = part * noise_of_both_;
+    VectorXd weight = VectorXd::Ones(value_.size());
     Regression found;
     for (int round = 0; round < rounds; ++round) {
       const double cells = weight.sum();
-      const Eigen::Matrix3d seen = design_.transpose() * weight.asDiagonal() * design_;
-      const Eigen::Matrix3d sums = seen - cells * known;
-      if (!(1 / sums.inverse()(1, 1) > least_part * (1 / seen.inverse()(1, 1)))) return {};
-      const Eigen::Vector3d best = sums.inverse() * (design_.transpose() * weight.asDiagonal() * value_ - cells * both);
-      const Eigen::VectorXd off = value_ - design_ * best;
-      const Eigen::MatrixX3d scores =
-          (design_.array().colwise() * off.array()).matrix().rowwise() - (both - known * best).transpose();
-      const Eigen::Matrix3d scatter = scores.transpose() * weight.asDiagonal() * scores * (cells / (cells - 3));
-      found = {best(1), std::sqrt((sums.inverse() * scatter * sums.inverse())(1, 1))};
+      const MatrixXd weighed = weight.asDiagonal() * design_, seen = design_.transpose() * weighed,
+                     inverse = dense_inverse(seen - cells * known);
+      if (!(1 / inverse(1, 1) > least_part / dense_inverse(seen)(1, 1))) return {};
+      const VectorXd best = inverse * (weighed.transpose() * value_ - cells * both), off = value_ - design_ * best;
+      MatrixXd scores = off.asDiagonal() * design_;
+      scores.rowwise() -= (both - known * best).transpose();
+      const MatrixXd scatter = scores.transpose() * MatrixXd(weight.asDiagonal() * scores);
+      found = {best(1), std::sqrt(cells / (cells - 3) * (inverse * scatter * inverse)(1, 1))};
       const double deviation = std::sqrt(weight.dot(off.cwiseAbs2()) / (cells - 3));
       weight = (off.array().abs() < far_off * deviation).cast<double>();
     }
     return found;
   }
 
-  Eigen::MatrixX3d design_;
-  Eigen::VectorXd value_;
-  Eigen::Matrix3d noise_of_known_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d noise_of_both_ = Eigen::Vector3d::Zero();
+  MatrixXd design_;
+  VectorXd value_;
+  MatrixXd noise_of_known_ = MatrixXd::Zero(3, 3);
+  VectorXd noise_of_both_ = VectorXd::Zero(3);
 };
 
 /// The features of CellModes.
@@ -81,7 +85,7 @@ ModeSlopes slopes_along(const CombinedState& state, std::initializer_list<CellCo
   Eigen::Matrix<double, coordinate_count - 1, coordinate_count> rows;
   Eigen::Index row = 0;
   for (const CellCoordinates& gradient : held) rows.row(row++) = gradient.transpose();
-  const CellCoordinates direction = rows.fullPivLu().kernel().col(0);
+  const CellCoordinates direction = null_vector(rows);
   ModeSlopes slopes{};
   for (int k = 0; k < slope_count; ++k)
     slopes[std::size_t(k)] =

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "infer/plane_map.h"
-#include "measurement/pixel_errors.h"
 #include "numeric/local_cubic.h"
 
 namespace rheocyte {
@@ -20,7 +19,7 @@ constexpr int radius_nodes = 29, height_nodes = 33, axial_nodes = 13;
 constexpr double stiffest_node = 1e-6;
 /// The stiffest cell of the maps, in ln E above the softest.
 constexpr double stiffest = 7;
-constexpr int inversion_steps = 8, cell_steps = 6, newton_steps = 8;
+constexpr int cell_steps = 6, newton_steps = 8;
 constexpr double settled_step = 1e-9;
 
 /// The numbers of one node of the sheets; by the first ones a cell is found.
@@ -42,73 +41,7 @@ struct SheetNumber {
 };
 using NodeNumbers = Eigen::Array<double, SheetNumber::count, 1>;
 
-SolidFeatures features_of(const ElongatedState& s, double length_factor) {
-  const auto value = [&](ElongatedMeasure m) { return s.value(number_of(m)); };
-  using enum ElongatedMeasure;
-  constexpr int second = number_of(mode_2);
-  return {s.log_area() + 2 * std::log(length_factor),
-          value(deformation),
-          value(inertia_ratio),
-          {s.value(second), s.value(second + 1), s.value(second + 2), s.value(second + 3)}};
-}
-
-/// Noise of (ln A, elongation, measure) at measured values; symmetric.
-Eigen::Matrix3d noise_of(const SolidFeatures& seen, StiffnessMeasure by, double pixel_size_um) {
-  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  const double log_area_px = seen.log_area - 2 * std::log(pixel_size_um);
-  const PixelErrors pixels = pixel_errors(log_area_px, seen.deformation);
-  noise(0, 0) = std::pow(pixels.area_deviation, 2);
-  const auto set = [&](double second, double third, double correlation) {
-    noise(1, 1) = second * second;
-    noise(2, 2) = third * third;
-    noise(1, 2) = noise(2, 1) = correlation * second * third;
-  };
-  switch (by) {
-    case StiffnessMeasure::asymmetry: {
-      const ModeErrors modes = mode_errors(log_area_px, seen.modes);
-      set(modes.mode_2.deviation, modes.mode_3.deviation, modes.correlation);
-      break;
-    }
-    case StiffnessMeasure::odd_deformation: {
-      const InertiaErrors e = inertia_errors(log_area_px, seen.deformation, seen.inertia_ratio);
-      set(e.inertia_deviation, e.deformation_deviation, e.correlation);
-      break;
-    }
-    case StiffnessMeasure::deformation:
-      noise(2, 2) = std::pow(pixels.deformation_deviation, 2);
-      noise(0, 2) = noise(2, 0) = pixels.correlation * pixels.area_deviation * pixels.deformation_deviation;
-  }
-  return noise;
-}
-
-double elongation_of(const SolidFeatures& f, StiffnessMeasure by) {
-  return by == StiffnessMeasure::odd_deformation ? f.inertia_ratio : f.modes.mode_2;
-}
-double measure_of(const SolidFeatures& f, StiffnessMeasure by) {
-  return by == StiffnessMeasure::asymmetry ? f.modes.mode_3 : f.deformation;
-}
-
 }  // namespace
-
-SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, double pixel_size_um) {
-  SolidFeatures seen = smooth;
-  const double log_pixel_area = 2 * std::log(pixel_size_um);
-  // The errors are small and change little: each step gains two digits.
-  for (int step = 0; step < inversion_steps; ++step) {
-    const double log_area_px = seen.log_area - log_pixel_area;
-    const PixelErrors pixels = pixel_errors(log_area_px, seen.deformation);
-    const ModeErrors errors = mode_errors(log_area_px, seen.modes);
-    const double deformation_excess =
-        by == StiffnessMeasure::deformation ? pixels.deformation_excess : errors.deformation_excess;
-    const OutlineModes& modes = smooth.modes;
-    seen = {smooth.log_area - std::log(pixels.area_factor),
-            smooth.deformation + deformation_excess,
-            smooth.inertia_ratio + errors.inertia_excess,
-            {modes.mode_2 + errors.mode_2.excess, modes.mode_3 + errors.mode_3.excess,
-             modes.mode_4 + errors.mode_4.excess, modes.mode_5 + errors.mode_5.excess}};
-  }
-  return seen;
-}
 
 /// The table through pixels on a grid of (u, height, axial ratio), in the recording's channel.
 class SolidMaps::Sheets {

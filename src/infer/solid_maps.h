@@ -7,23 +7,10 @@
 
 #include "infer/elongated_liquid.h"
 #include "infer/outline_errors.h"
-#include "measurement/pixel_errors.h"
+#include "infer/solid_features.h"
 #include "population/forward_map.h"
 
 namespace rheocyte {
-
-/// What tells the stiffness beside the area, and what tells the elongation, which is eliminated: c_3 with c_2;
-/// deformation with the inertia ratio; the deformation of cells that nothing but the flow elongates.
-enum class StiffnessMeasure { asymmetry, odd_deformation, deformation };
-
-/// Features of an outline without pixels, and through pixels on average.
-struct SolidFeatures {
-  double log_area = 0, deformation = 0, inertia_ratio = 0;
-  OutlineModes modes;
-};
-
-/// On average; area and deformation as the measure's law has them.
-SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, double pixel_size_um);
 
 /// By which cells are seen.
 struct SolidImages {

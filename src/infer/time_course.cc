@@ -1,6 +1,5 @@
 #include "infer/time_course.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,6 +8,7 @@
 #include <numeric>
 
 #include "case/channel_flow.h"
+#include "infer/course_normal.h"
 #include "infer/elongation_law.h"
 #include "measurement/pixel_errors.h"
 #include "numeric/quantile.h"
@@ -54,10 +54,9 @@ struct TimeCourse::Box {
   double min_modulus, max_modulus, min_time, max_time;  ///< logarithms, in the coordinates of the table
 };
 
-/// Cells that could have been seen, and how likely they are (not normalised).
 struct TimeCourse::Points {
-  std::vector<double> modulus, time;                       ///< coordinates
-  std::vector<double> log_modulus, log_viscosity, weight;  ///< kPa, Pa s
+  std::vector<double> modulus, time;  ///< coordinates
+  LikelyCells cells;
   std::vector<double> log_radius;
   double min_chi_squared = 0;
 };
@@ -147,9 +146,9 @@ TimeCourse::Points TimeCourse::points(const CellImages& images, const Box& box, 
           moduli[std::size_t(j)] + power_of_radius * (log_radius(j, k) - std::log(table_.spec().max_radius_um));
       points.modulus.push_back(moduli[std::size_t(j)]);
       points.time.push_back(times[std::size_t(k)]);
-      points.log_modulus.push_back(modulus);
-      points.log_viscosity.push_back(modulus + times[std::size_t(k)] - std::log(3));
-      points.weight.push_back(std::exp(-below));
+      points.cells.log_modulus.push_back(modulus);
+      points.cells.log_viscosity.push_back(modulus + times[std::size_t(k)] - std::log(3));
+      points.cells.weight.push_back(std::exp(-below));
       points.log_radius.push_back(log_radius(j, k));
     }
   return points;
@@ -159,7 +158,7 @@ TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
   const auto axes = nodes_of(table_.spec());
   const Box whole{axes[1].front(), axes[1].back(), axes[2].front(), axes[2].back()};
   Points seen = points(images, whole, coarse);
-  if (seen.weight.empty()) return seen;
+  if (seen.cells.weight.empty()) return seen;
   const auto [low_modulus, high_modulus] = std::ranges::minmax(seen.modulus);
   const auto [low_time, high_time] = std::ranges::minmax(seen.time);
   const double step_modulus = (whole.max_modulus - whole.min_modulus) / coarse,
@@ -174,102 +173,18 @@ TimeCourse::Points TimeCourse::refined_points(const CellImages& images) const {
 CourseEstimate TimeCourse::cell(const CellImages& images) const {
   const Points seen = refined_points(images);
   CourseEstimate estimate;
-  if (seen.weight.empty()) return estimate;
-  const double all = std::accumulate(seen.weight.begin(), seen.weight.end(), 0.0);
-  estimate.radius_um =
-      std::exp(std::inner_product(seen.log_radius.begin(), seen.log_radius.end(), seen.weight.begin(), 0.0) / all);
-  estimate.young_modulus_kPa = credible(seen.log_modulus, seen.weight);
-  estimate.viscosity_Pas = credible(seen.log_viscosity, seen.weight);
-  estimate.time_ms = credible(seen.time, seen.weight);
+  if (seen.cells.weight.empty()) return estimate;
+  const double all = std::accumulate(seen.cells.weight.begin(), seen.cells.weight.end(), 0.0);
+  estimate.radius_um = std::exp(
+      std::inner_product(seen.log_radius.begin(), seen.log_radius.end(), seen.cells.weight.begin(), 0.0) / all);
+  estimate.young_modulus_kPa = credible(seen.cells.log_modulus, seen.cells.weight);
+  estimate.viscosity_Pas = credible(seen.cells.log_viscosity, seen.cells.weight);
+  estimate.time_ms = credible(seen.time, seen.cells.weight);
   estimate.chi_squared = seen.min_chi_squared;
   return estimate;
 }
 
 namespace {
-
-/// Means and variances of ln(E) and ln(viscosity) in a population.
-struct Normal {
-  Eigen::Array2d mean = Eigen::Array2d::Zero(), variance = Eigen::Array2d::Ones();
-};
-
-/// Narrower than that the points of a cell, which lie a few per cent apart, do not resolve a population.
-constexpr double min_variance = min_spread * min_spread;
-
-/// What a cell adds: mean and variance about the population's mean of what it may be.
-struct Moments {
-  Eigen::Array2d first = Eigen::Array2d::Zero(), second = Eigen::Array2d::Zero();
-};
-
-template <class Points>
-Moments moments_of(const Points& points, const Normal& population) {
-  Moments moments;
-  double all = 0;
-  for (std::size_t i = 0; i < points.weight.size(); ++i) {
-    const Eigen::Array2d away = Eigen::Array2d(points.log_modulus[i], points.log_viscosity[i]) - population.mean;
-    const double weight = points.weight[i] * std::exp(-(away.square() / population.variance).sum() / 2);
-    all += weight;
-    moments.first += weight * away;
-    moments.second += weight * away.square();
-  }
-  if (all > 0) moments.first /= all, moments.second /= all;
-  return moments;
-}
-
-/// Where the population starts: as if each cell were what it is most likely alone.
-template <class Points>
-Normal first_guess(const std::vector<Points>& cells) {
-  Normal flat;
-  flat.variance.setConstant(1e6);
-  Eigen::Array2d sum = Eigen::Array2d::Zero(), squares = sum;
-  for (const Points& cell : cells) {
-    const Moments moments = moments_of(cell, flat);
-    sum += moments.first;
-    squares += moments.first.square();
-  }
-  const double n = double(cells.size());
-  return {sum / n, (squares / n - (sum / n).square()).max(0.01)};
-}
-
-/// Expectation and maximisation (Dempster, Laird and Rubin 1977).
-template <class Points>
-Normal most_likely(const std::vector<Points>& cells, Normal population) {
-  constexpr int max_steps = 400;
-  constexpr double settled = 1e-5;
-  for (int step = 0; step < max_steps; ++step) {
-    Eigen::Array2d first = Eigen::Array2d::Zero(), second = first;
-    for (const Points& cell : cells) {
-      const Moments moments = moments_of(cell, population);
-      first += moments.first;
-      second += moments.second;
-    }
-    first /= double(cells.size());
-    second /= double(cells.size());
-    population.mean += first;
-    population.variance = (second - first.square()).max(min_variance);
-    if (first.abs().maxCoeff() < settled) break;
-  }
-  return population;
-}
-
-/// Standard errors of the means, from the scatter of the cells' scores. A variance that is as small as any is not
-/// estimated.
-template <class Points>
-Eigen::Array2d errors_of(const std::vector<Points>& cells, const Normal& population) {
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  for (const Points& cell : cells) {
-    const Moments moments = moments_of(cell, population);
-    Eigen::Vector4d score;
-    const auto is_free = (population.variance > min_variance).cast<double>();
-    score << (moments.first / population.variance).matrix(),
-        (is_free * (moments.second / population.variance - 1) / 2).matrix();
-    information += score * score.transpose();
-  }
-  for (Eigen::Index i = 0; i < 2; ++i)
-    if (!(population.variance[i] > min_variance)) information(2 + i, 2 + i) = 1;
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(information);
-  if (!lu.isInvertible()) return Eigen::Array2d::Constant(HUGE_VAL);
-  return lu.inverse().diagonal().head<2>().array().sqrt();
-}
 
 double middle_place(const std::vector<CellImages>& cells) {
   std::vector<double> places;
@@ -297,17 +212,17 @@ PopulationEstimate TimeCourse::population(std::span<const CellImages> cells, con
   for (std::size_t i = 0; i < count; ++i) chosen.push_back(cells[i * cells.size() / count]);
   const double middle = middle_place(chosen);
   const auto points_with = [&](double near, double far) {
-    std::vector<Points> seen;
+    std::vector<LikelyCells> seen;
     for (const CellImages& images : chosen) {
       watch.go_on();
-      seen.push_back(refined_points(with_factors(images, middle, near, far)));
+      seen.push_back(refined_points(with_factors(images, middle, near, far)).cells);
     }
-    std::erase_if(seen, [](const Points& cell) { return cell.weight.empty(); });
+    std::erase_if(seen, [](const LikelyCells& cell) { return cell.weight.empty(); });
     return seen;
   };
-  const std::vector<Points> seen = points_with(1, 1);
+  const std::vector<LikelyCells> seen = points_with(1, 1);
   if (seen.empty()) return {};
-  const Normal population = most_likely(seen, first_guess(seen));
+  const CourseNormal population = most_likely(seen, first_guess(seen));
   Eigen::Array2d variance = errors_of(seen, population).square();
   constexpr double off = 1 + left_by_asymmetry_law;
   for (const auto& moved : {points_with(off, 1), points_with(1, off)})

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "case/json_guard.h"
+#include "case/split.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
 #include "measurement/any_bytes.h"
@@ -112,10 +112,7 @@ std::vector<std::string> file_basin_lines(const std::string& name, const std::ve
   const json definition{{"description", nullptr}, {"features", nullptr}, {"format", "hdf5"},
                         {"identifier", nullptr},  {"mapping", mapping},  {"name", name},
                         {"paths", names},         {"perishable", false}, {"type", "file"}};
-  std::istringstream text(stand_ins_escaped(definition.dump(2, ' ', false, json::error_handler_t::replace)));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
+  return text_lines(stand_ins_escaped(definition.dump(2, ' ', false, json::error_handler_t::replace)));
 }
 
 std::vector<fs::path> basin_files(const BasinDefinition& basin, const fs::path& referring_file) {

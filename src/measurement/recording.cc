@@ -3,67 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/hdf5_writing.h"
+#include "measurement/open_recording.h"
 #include "measurement/recording_content.h"
 #include "numeric/no_value.h"
-#include "store/read_file.h"
 
 namespace rheocyte {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// By the flags that HDF5 sets in the superblock of a file of its newest version and clears at the end.
-bool is_being_written(const fs::path& file) {
-  constexpr std::size_t version_at = 8, flags_at = 11;
-  constexpr unsigned char writing = 1, single_writer = 4;
-  std::array<char, flags_at + 1> head{};
-  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-  return head[version_at] == 3 && (static_cast<unsigned char>(head[flags_at]) & (writing | single_writer)) != 0;
-}
-
-// Files of the field's programs that are no .rtdc recordings.
-void refuse_other_kinds(const fs::path& file) {
-  const std::string kind = file.extension().string();
-  if (kind == ".tdms")
-    refuse_path(file, "is a recording in the older format .tdms; convert it with dclab-tdms2rtdc of dclab[tdms].");
-  if (kind == ".so2")
-    refuse_path(file,
-                "is a session of DCscope, not a recording; give its recordings, or export there what passes its "
-                "filters as .rtdc, or its polygon filters as .poly for --polygon.");
-  if (kind == ".poly") refuse_path(file, "holds polygon filters; give it with --polygon, beside recordings (.rtdc).");
-}
-
-Hdf5Handle open_file(const fs::path& file) {
-  std::error_code error;
-  const auto status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) refuse_missing(file);
-  if (!fs::is_regular_file(status)) refuse_path(file, "is not a file; give an .rtdc recording.");
-  prepare_hdf5();
-  const Hdf5Handle access(::H5Pcreate(H5P_FILE_ACCESS));
-  // Recordings often lie on network drives that know no locks; nothing is written to them.
-  ::H5Pset_file_locking(access.get(), false, true);
-  const std::string name = file.string();  // UTF-8 on Windows, too
-  Hdf5Handle opened(::H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()));
-  if (opened) return opened;
-  if (!first_bytes(file, 1)) refuse_path(file, "cannot be read; check its permissions.");
-  if (::H5Fis_hdf5(name.c_str()) <= 0) refuse_other_kinds(file);
-  if (::H5Fis_hdf5(name.c_str()) <= 0)
-    refuse_path(file, "is not an HDF5 file, or its first bytes are damaged; .rtdc recordings are HDF5 files.");
-  if (is_being_written(file))
-    refuse_path(file,
-                "is open for writing: its recording has not ended, or the program that made it broke down; wait for "
-                "the end, or free it with h5clear -s (of the HDF5 tools).");
-  refuse_path(file, "is damaged or incomplete and cannot be opened; copy it once more from where it was recorded.");
-}
 
 // Which compression is missing, if that is the reason why data could not be read.
 std::string missing_filter(hid_t dataset) {
@@ -121,7 +75,7 @@ Recording::Recording(const fs::path& file) {
 Recording::Recording(const fs::path& file, Opening& opening) : content_(std::make_unique<Content>()) {
   Content& c = *content_;
   c.path = file;
-  c.file = open_file(file);
+  c.file = open_recording(file);
   std::error_code error;
   c.bytes = c.bytes_with_basins = fs::file_size(file, error);
   c.metadata = read_attributes(c.file.get());

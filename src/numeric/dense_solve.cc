@@ -12,6 +12,13 @@ Eigen::MatrixXd dense_inverse(const Eigen::MatrixXd& A) {
   return solve_dense(A, Eigen::MatrixXd::Identity(A.rows(), A.cols()));
 }
 
+Eigen::MatrixXd regular_inverse(const Eigen::MatrixXd& A) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(A);
+  return lu.isInvertible() ? Eigen::MatrixXd(lu.inverse()) : Eigen::MatrixXd();
+}
+
+Eigen::VectorXd null_vector(const Eigen::MatrixXd& A) { return A.fullPivLu().kernel().col(0); }
+
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
   if (cholesky.info() != Eigen::Success) return {};

@@ -10,6 +10,12 @@ Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 /// A^-1; not finite if A is singular.
 Eigen::MatrixXd dense_inverse(const Eigen::MatrixXd& A);
 
+/// The same; empty if A is singular to rounding.
+Eigen::MatrixXd regular_inverse(const Eigen::MatrixXd& A);
+
+/// An x that is not 0 with A x = 0, where A has fewer rows than columns.
+Eigen::VectorXd null_vector(const Eigen::MatrixXd& A);
+
 /// L^-1 of the covariance L L^T of some numbers, which turns them into independent ones of variance 1; empty if the
 /// covariance is not positive definite.
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance);

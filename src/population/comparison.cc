@@ -1,14 +1,12 @@
 #include "population/comparison.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 #include <vector>
 
 #include "numeric/roots.h"
+#include "population/statistics_laws.h"
 
 namespace rheocyte {
 namespace {
@@ -37,17 +35,16 @@ double sampling_variance(std::span<const RecordingMean> means) {
 struct TestReach {
   double half = 0, p = 0;
 };
-template <class Law>
-TestReach reach_by(const Law& law, const ConditionDifference& d, double error, double level) {
-  return {boost::math::quantile(law, (1 + level) / 2) * error,
-          2 * boost::math::cdf(boost::math::complement(law, std::abs(d.value) / error))};
-}
 
 /// Student's t by the scatter of the recordings, or the normal law of their sampling where that is wider.
 void add_wider_test(ConditionDifference& d, double level) {
   TestReach scatter, sampling;
-  if (d.standard_error > 0) scatter = reach_by(boost::math::students_t(d.freedom), d, d.standard_error, level);
-  if (d.sampling_error > 0) sampling = reach_by(boost::math::normal(), d, d.sampling_error, level);
+  const double within = (1 + level) / 2;
+  if (d.standard_error > 0)
+    scatter = {students_t_quantile(d.freedom, within) * d.standard_error,
+               students_t_beyond(d.freedom, d.value / d.standard_error)};
+  if (d.sampling_error > 0)
+    sampling = {normal_quantile(within) * d.sampling_error, normal_beyond(d.value / d.sampling_error)};
   d.is_by_sampling = sampling.half > scatter.half;
   const double half = std::max(scatter.half, sampling.half);
   if (half == 0) return;
@@ -58,15 +55,14 @@ void add_wider_test(ConditionDifference& d, double level) {
 
 /// `of_recordings`: variance of the difference by recordings that scatter with a standard deviation of 1.
 void add_normal(ConditionDifference& d, double of_recordings, const ComparisonSettings& settings) {
-  const boost::math::normal law;
-  const double z = boost::math::quantile(law, (1 + settings.level) / 2);
+  const double z = normal_quantile((1 + settings.level) / 2);
   d.sampling_lower = d.value - z * d.sampling_error;
   d.sampling_upper = d.value + z * d.sampling_error;
   if (!settings.between_recordings) return;
   const double error = std::hypot(d.sampling_error, *settings.between_recordings * std::sqrt(of_recordings));
   d.known_lower = d.value - z * error;
   d.known_upper = d.value + z * error;
-  d.known_p = 2 * boost::math::cdf(boost::math::complement(law, std::abs(d.value) / error));
+  d.known_p = normal_beyond(d.value / error);
 }
 
 /// Sum of squares over the variances, and what restricted maximum likelihood needs.
@@ -150,9 +146,9 @@ ScatterBetween scatter_between(std::span<const RecordingMean> means, double leve
     while (slope(high) > 0) high *= 4;
     variance = bracketed_root(slope, 0, high);
   }
-  const boost::math::chi_squared law(double(means.size() - 1));
-  return {std::sqrt(variance), deviation_where(means, boost::math::quantile(law, (1 + level) / 2)),
-          deviation_where(means, boost::math::quantile(law, (1 - level) / 2))};
+  const auto quantile = [&](double p) { return chi_squared_quantile(double(means.size() - 1), p); };
+  return {std::sqrt(variance), deviation_where(means, quantile((1 + level) / 2)),
+          deviation_where(means, quantile((1 - level) / 2))};
 }
 
 }  // namespace rheocyte

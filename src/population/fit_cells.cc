@@ -1,7 +1,6 @@
 #include "population/fit_cells.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "numeric/dense_solve.h"
 #include "numeric/no_value.h"
 #include "population/likelihood_maximum.h"
+#include "population/statistics_laws.h"
 
 namespace rheocyte {
 namespace {
@@ -210,7 +210,7 @@ class CellFit {
   }
 
   void tell_intervals(FittedCells& fitted) {
-    const double z = boost::math::quantile(boost::math::normal(), (1 + settings_.level) / 2);
+    const double z = normal_quantile((1 + settings_.level) / 2);
     const LikelihoodMaximum maximum = best_;
     for (int k = 0; k < population_parameters; ++k) {
       auto& interval = fitted.intervals[std::size_t(k)];
@@ -253,7 +253,7 @@ class CellFit {
   }
 
   std::optional<double> least_log_modulus() {
-    const double z = boost::math::quantile(boost::math::normal(), settings_.level);
+    const double z = normal_quantile(settings_.level);
     const LikelihoodMaximum maximum = best_;
     const int k = number_of(PopulationParameter::mean_log_modulus);
     const double error = 10 * difference_steps(maximum.products)(k);
@@ -279,7 +279,7 @@ double FittedCells::standard_error(PopulationParameter parameter) const {
 }
 
 ParameterInterval normal_interval(double value, double standard_error, double level) {
-  const double half = boost::math::quantile(boost::math::normal(), (1 + level) / 2) * standard_error;
+  const double half = normal_quantile((1 + level) / 2) * standard_error;
   return {value - half, value + half};
 }
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "numeric/dense_solve.h"
-#include "numeric/quantile.h"
+#include "population/strangers.h"
 
 namespace rheocyte {
 
@@ -21,48 +21,6 @@ constexpr double most_distance_of_newton = 20;
 /// Steps below this fraction of a standard error change nothing that is told.
 constexpr double moment_tolerance = 0.03;
 constexpr double first_damping = 1e-3, greatest_damping = 1e8;
-/// Standard deviations of one number beyond which a normal distribution has one event of 20,000.
-constexpr double far_away = 3.9;
-constexpr int rounds_of_strangers = 5;
-
-Moments moments_of(const MatrixXd& events, const std::vector<bool>& leave_out) {
-  VectorXd sum = VectorXd::Zero(events.cols());
-  double count = 0;
-  for (Eigen::Index i = 0; i < events.rows(); ++i) {
-    if (leave_out[std::size_t(i)]) continue;
-    sum += events.row(i).transpose();
-    ++count;
-  }
-  Moments found{sum / count, MatrixXd::Zero(events.cols(), events.cols())};
-  for (Eigen::Index i = 0; i < events.rows(); ++i) {
-    if (leave_out[std::size_t(i)]) continue;
-    const VectorXd off = events.row(i).transpose() - found.mean;
-    found.covariance += off * off.transpose() / count;
-  }
-  return found;
-}
-
-/// By how much the squared distance of an event far away exceeds that of the median one (Wilson and Hilferty 1931).
-double stranger_over_median(double measures) {
-  const double variance = 2 / (9 * measures), middle = 1 - variance;
-  return std::pow((middle + far_away * std::sqrt(variance)) / middle, 3);
-}
-
-/// By their distance from the others, in units of these' scatter; again until the same ones are left out.
-std::vector<bool> strangers(const MatrixXd& events) {
-  std::vector<bool> found(std::size_t(events.rows()), false);
-  for (int round = 0; round < rounds_of_strangers; ++round) {
-    const Moments moments = moments_of(events, found);
-    const MatrixXd white = whitening(moments.covariance);
-    if (white.size() == 0) return found;
-    std::vector<double> distance(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-      distance[i] = (white * (events.row(Eigen::Index(i)).transpose() - moments.mean)).squaredNorm();
-    const double limit = stranger_over_median(double(events.cols())) * quantile(distance, 0.5);
-    for (std::size_t i = 0; i < found.size(); ++i) found[i] = distance[i] > limit;
-  }
-  return found;
-}
 
 /// What the search for some of the parameters sees: slopes of the logarithm of the likelihood of one event, and its
 /// information.
@@ -77,7 +35,7 @@ class MomentSearch {
       : model_(model), events_(events), settings_(settings) {
     assert(events.allFinite());
     found_.is_stranger = strangers(events);
-    for (const bool is_stranger : found_.is_stranger) found_.events += is_stranger ? 0 : 1;
+    found_.events = std::size_t(std::ranges::count(found_.is_stranger, false));
     found_.measured = moments_of(events, found_.is_stranger);
     found_.parameters = start.cwiseMax(settings.least).cwiseMin(settings.greatest);
     found_.at_bound.assign(std::size_t(start.size()), false);

@@ -1,8 +1,8 @@
 #include "population/power.h"
 
-#include <boost/math/distributions/non_central_t.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "population/statistics_laws.h"
 
 namespace rheocyte {
 
@@ -13,13 +13,12 @@ double error_of_difference(const Experiment& e, int sessions) {
 
 double power_of(const Experiment& experiment, int sessions, double difference, double size) {
   if (sessions < 2) return 0;
-  const double freedom = sessions - 1, limit = boost::math::quantile(boost::math::students_t(freedom), 1 - size / 2);
+  const double freedom = sessions - 1, limit = students_t_quantile(freedom, 1 - size / 2);
   const double shift = std::abs(difference) / error_of_difference(experiment, sessions);
   // Beyond this the series of the noncentral law ends; there is no doubt there.
   constexpr double certain = 35;
   if (shift > certain) return 1;
-  const boost::math::non_central_t law(freedom, shift);
-  return boost::math::cdf(boost::math::complement(law, limit)) + boost::math::cdf(law, -limit);
+  return shifted_t_beyond(freedom, shift, limit);
 }
 
 int sessions_for(const Experiment& experiment, double difference, double power, int most) {

@@ -1,9 +1,9 @@
 #include "population/shared_spread.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <vector>
 
 #include "numeric/dense_solve.h"
+#include "population/statistics_laws.h"
 
 namespace rheocyte {
 namespace {
@@ -42,7 +42,7 @@ SpreadsApart share_spread(std::span<RecordingLaw> recordings) {
     covariance.bottomLeftCorner<spreads, means>() = variance * slope.transpose();
     covariance.topLeftCorner<means, means>() = alone + slope * variance * slope.transpose();
   }
-  apart.p = boost::math::cdf(complement(boost::math::chi_squared(apart.freedom), apart.chi_squared));
+  apart.p = chi_squared_above(apart.freedom, apart.chi_squared);
   return apart;
 }
 

@@ -1,11 +1,11 @@
 #include "population/stiffening.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 #include <vector>
+
+#include "population/statistics_laws.h"
 
 namespace rheocyte {
 namespace {
@@ -41,9 +41,8 @@ Stiffening stiffening_of(std::span<const MeanAtStress> means, double level) {
   Stiffening found{.exponent = products / squares, .value = value, .freedom = count - 2};
   double residues = 0;
   for (const auto& m : means) residues += std::pow(m.mean.value - value - found.exponent * (m.log_stress - stress), 2);
-  const double deviation = std::sqrt(residues / found.freedom),
-               t = boost::math::quantile(boost::math::students_t(found.freedom), (1 + level) / 2),
-               z = boost::math::quantile(boost::math::normal(), (1 + level) / 2);
+  const double deviation = std::sqrt(residues / found.freedom), t = students_t_quantile(found.freedom, (1 + level) / 2),
+               z = normal_quantile((1 + level) / 2);
   const double reach = std::max(t * deviation, z * std::sqrt(of_exponent / squares)) / std::sqrt(squares),
                reach_of_value = std::max(t * deviation / std::sqrt(count), z * std::sqrt(of_value));
   found.lower = found.exponent - reach;

@@ -102,10 +102,6 @@ class ColumnList {
     }
     return *this;
   }
-  ColumnList& add_all(const Columns<Row>& more) {
-    all_.insert(all_.end(), more.begin(), more.end());
-    return *this;
-  }
   Columns<Row> columns() && { return std::move(all_); }
 
  private:

@@ -7,7 +7,7 @@
 #include "numeric/lagrange.h"
 #include "solve/branch_samples.h"
 #include "sweep/measured_state.h"
-#include "table/square_branches.h"
+#include "table/branch_curve.h"
 
 namespace rheocyte {
 namespace {

@@ -18,9 +18,7 @@ namespace {
 void check_tension(const SynthSpec& spec, const KeyReading& keys) {
   constexpr std::string_view key = "cell.cortex.tension_ratio";
   if (!keys.has(key) || spec.kind == CellKind::combined) return;
-  if (!spec.table.empty())
-    keys.refuse(key,
-                fmt::format("{} has no effect, because shapes.table is given; remove one of them.", keys.stated(key)));
+  if (!spec.table.empty()) keys.refuse_stated(key, "has no effect, because shapes.table is given; remove one of them");
   if (spec.tension_ratio->deviation > 0)
     keys.refuse(key, fmt::format("{} is one number for all shells; only combined cells have a spread of it.", key));
 }
@@ -30,10 +28,9 @@ void check_medium(const SynthSpec& spec, const KeyReading& keys) {
   constexpr std::string_view key = "flow.medium";
   const auto medium = medium_of_name(spec.medium);
   if (!medium)
-    keys.refuse(key,
-                fmt::format("{} has no known viscosity{}; it can be CellCarrier, CellCarrierB, 0.83% MC-PBS or water, "
-                            "or give flow.viscosity_mPas.",
-                            keys.stated(key), near_medium(spec.medium)));
+    keys.refuse_stated(key, fmt::format("has no known viscosity{}; it can be CellCarrier, CellCarrierB, 0.83% MC-PBS "
+                                        "or water, or give flow.viscosity_mPas",
+                                        near_medium(spec.medium)));
   try {
     const Buffer check(*medium, spec.viscosity_model);
   } catch (const UserError& error) {
@@ -45,7 +42,7 @@ void check_medium(const SynthSpec& spec, const KeyReading& keys) {
 void check_pattern(const std::string& text, std::string_view pattern, std::string_view key, const KeyReading& keys) {
   const auto fits = [](char wanted, char is) { return wanted == '0' ? is >= '0' && is <= '9' : is == wanted; };
   if (text.size() != pattern.size() || !std::ranges::equal(pattern, text, fits))
-    keys.refuse(key, fmt::format("{} must have the form {}.", keys.stated(key), find_key(synth_keys(), key)->sentence));
+    keys.refuse_stated(key, fmt::format("must have the form {}", find_key(synth_keys(), key)->sentence));
 }
 
 void check_shapes(SynthSpec& spec, const KeyReading& keys) {

@@ -1,12 +1,12 @@
 #include "table/branch_between.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <span>
 
+#include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
 #include "table/radius_branches.h"
 
@@ -79,7 +79,7 @@ std::vector<double> smooth_ends(Branches near) {
     for (Eigen::Index power = 1; power < terms; ++power) powers(k, power) = powers(k, power - 1) * place;
     last(k) = std::log(last_of(*near[std::size_t(k)], Measure::deformation));
   }
-  const VectorXd smooth = powers * powers.completeOrthogonalDecomposition().solve(last);
+  const VectorXd smooth = powers * least_squares(powers, last);
   const VectorXd ends = smooth.array() + (last - smooth).minCoeff();
   return {ends.begin(), ends.end()};
 }

@@ -70,14 +70,12 @@ const std::array all_dynamic_keys = {
 void refuse_keys_of_table(const KeyReading& keys) {
   constexpr std::string_view section = "channel.section";
   if (keys.chosen(section) == "rectangle")
-    keys.refuse(section, fmt::format("{} is for single cells; dynamic tables are computed in tubes and in the square "
-                                     "channel of a chip, leave it out or choose \"square\".",
-                                     keys.stated(section)));
+    keys.refuse_stated(section,
+                       "is for single cells; dynamic tables are computed in tubes and in the square channel of a chip, "
+                       "leave it out or choose \"square\"");
   const auto refuse = [&](std::string_view key) {
     if (keys.has(key))
-      keys.refuse(key, fmt::format("{} must not be given, because a dynamic table chooses it; see the section "
-                                   "[dynamic].",
-                                   keys.stated(key)));
+      keys.refuse_stated(key, "must not be given, because a dynamic table chooses it; see the section [dynamic]");
   };
   std::ranges::for_each(cell_keys, refuse);
   std::ranges::for_each(keys_of_way, refuse);
@@ -98,23 +96,21 @@ void check_ranges(const DynamicSpec& spec, const KeyReading& keys) {
   for (const auto& [name, radius] :
        {std::pair("dynamic.min_radius_um", spec.min_radius_um), std::pair("dynamic.max_radius_um", spec.max_radius_um)})
     if (radius < min_radius_ratio * R || radius > max_radius_ratio * R)
-      keys.refuse(name, fmt::format("{} is outside its range {:.4g} .. {:.4g} um, {} .. {} of the narrowest radius.",
-                                    keys.stated(name), min_radius_ratio * R, max_radius_ratio * R, min_radius_ratio,
-                                    max_radius_ratio));
+      keys.refuse_stated(name,
+                         fmt::format("is outside its range {:.4g} .. {:.4g} um, {} .. {} of the narrowest radius",
+                                     min_radius_ratio * R, max_radius_ratio * R, min_radius_ratio, max_radius_ratio));
 }
 
 void check_cells(const Case& c, const KeyReading& keys) {
-  const auto refuse = [&](std::string_view key, std::string_view reason) {
-    keys.refuse(key, fmt::format("{} {}.", keys.has(key) ? keys.stated(key) : std::string(key), reason));
-  };
   if (c.channel.profile.x_um.empty())
-    refuse("channel.profile.x_um",
-           "is missing; a dynamic table needs the contraction that its cells come through, with channel.profile.R_um "
-           "or channel.profile.width_um");
+    keys.refuse_stated("channel.profile.x_um",
+                       "is missing; a dynamic table needs the contraction that its cells come through, with "
+                       "channel.profile.R_um or channel.profile.width_um");
   if (c.cell.bulk.law == BulkLaw::none)
-    refuse("cell.bulk.law", "has no Young's modulus; a dynamic table is for cells with an elastic interior");
+    keys.refuse_stated("cell.bulk.law",
+                       "has no Young's modulus; a dynamic table is for cells with an elastic interior");
   if (!is_power_law(c.flow.law))
-    refuse("flow.law", "does not scale between flow rates; choose \"newtonian\" or \"power-law\"");
+    keys.refuse_stated("flow.law", "does not scale between flow rates; choose \"newtonian\" or \"power-law\"");
 }
 
 void check_dynamic_identifier(const DynamicSpec& spec, const KeyReading& keys) {
@@ -122,9 +118,7 @@ void check_dynamic_identifier(const DynamicSpec& spec, const KeyReading& keys) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
   };
   if (spec.identifier.empty() || spec.identifier.size() > 60 || !std::ranges::all_of(spec.identifier, is_plain))
-    keys.refuse("dynamic.identifier",
-                fmt::format("{} is not a name of a table; take 1 to 60 letters, digits and hyphens.",
-                            keys.stated("dynamic.identifier")));
+    keys.refuse_stated("dynamic.identifier", "is not a name of a table; take 1 to 60 letters, digits and hyphens");
 }
 
 /// Digits of a number in a base behind the point, mirrored: evenly spread over (0, 1) (van der Corput).

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
-#include <optional>
 #include <utility>
 
-#include "case/channel_flow.h"
 #include "case/scales.h"
 #include "case/user_error.h"
 #include "numeric/dense_solve.h"
 #include "numeric/lagrange.h"
-#include "shape/outline_shape.h"
+#include "table/branch_curve.h"
+#include "table/reference_stiffness.h"
 
 namespace rheocyte {
 namespace {
@@ -26,126 +24,6 @@ constexpr int dense_samples = 48;
 constexpr double max_continuation = 0.04;
 /// Of the miss of polynomials that leave a node out: between nodes that they have, they miss a tenth.
 constexpr double fraction_of_miss = 0.1;
-constexpr double max_exponent_difference = 0.01;
-
-double sqrt_deformation(const SampledBranch& branch, int sample) {
-  return std::sqrt(branch.at(sample, Measure::deformation));
-}
-
-/// A measure as q in value = base + s^power q with s = sqrt(d): q is smooth and has no zero at s = 0.
-struct Scaling {
-  double base = 0;
-  int power = 0;
-};
-
-Scaling scaling_of(int measure) {
-  const std::string_view name = table_measures[std::size_t(measure)].name;
-  if (name.starts_with("deformation")) return {0, 2};
-  if (name.starts_with("moment_ratio") || name == "inertia_ratio") return {1, 2};
-  if (name.starts_with("mode_")) return {0, order_of_mode(name[5] - '0')};
-  return {};
-}
-
-/// ln(E) as a function of r0 and ln(d) that takes most of its changes away: the tube's table at the area of the sphere,
-/// continued in straight lines beyond its rims, or -ln(d) / 2. At the cell's own area, which grows with d, large cells
-/// would cross the rim on their way.
-class ReferenceStiffness {
- public:
-  ReferenceStiffness(const TableSpec& spec, const GridContent* tube) {
-    if (!tube) return;
-    const ChannelFlow flow = channel_flow_of(spec.base);
-    if (std::abs(flow.exponent - tube->origin.flow.exponent) > max_exponent_difference ||
-        tube->origin.section != Section::tube || tube->origin.is_shell)
-      throw UserError(
-          fmt::format("table.tube_table = {}: is not a table of solids in the tube in a liquid of exponent {:.4g}, "
-                      "as the spec is for; name another one, or leave it out.",
-                      tube->origin.identifier, flow.exponent));
-    const ScaleFactors factors = scale_factors(tube->origin.flow, flow);
-    log_area_factor_ = std::log(factors.area);
-    log_modulus_factor_ = std::log(factors.modulus);
-    grid_.emplace(*tube);
-  }
-
-  struct Value {
-    double log_stiffness, by_log_deformation;
-  };
-  Value operator()(double radius_um, double log_deformation) const {
-    if (!grid_) return {-log_deformation / 2, -0.5};
-    constexpr double rim = 1e-6;
-    const GridContent& content = grid_->content();
-    const double first = content.min_log_area, last = first + content.column_step * (content.columns - 1);
-    const double log_area = std::log(std::numbers::pi * radius_um * radius_um) - log_area_factor_;
-    const double x = std::clamp(log_area, first + rim, last - rim);
-    const auto range = *grid_->smooth_range(std::exp(x));
-    const double y = std::clamp(log_deformation, range.lower + rim, range.upper - rim);
-    const GridAnswer at = grid_->answer(std::exp(x), std::exp(y));
-    const double beyond = (log_area - x) * at.by_log_area + (log_deformation - y) * at.by_log_deformation;
-    return {log_modulus_factor_ + at.log_stiffness + beyond, at.by_log_deformation};
-  }
-
- private:
-  std::optional<StiffnessGrid> grid_;
-  double log_area_factor_ = 0, log_modulus_factor_ = 0;
-};
-
-/// The polynomials along one computed branch over s = sqrt(d).
-class Curve {
- public:
-  Curve(const SampledBranch& branch, const ReferenceStiffness& reference) : branch_(&branch) {
-    const int samples = branch.samples();
-    s_ = roots_of_deformation(branch);
-    numbers_.resize(samples, measure_count + 1);
-    for (int k = 0; k < samples; ++k) {
-      const double s = s_[std::size_t(k)];
-      for (int m = 0; m < measure_count; ++m) {
-        const Scaling scaling = scaling_of(m);
-        numbers_(k, m) = (branch.value(k, m) - scaling.base) / std::pow(s, scaling.power);
-      }
-      numbers_(k, measure_count) =
-          std::log(branch.stiffness[std::size_t(k)]) - reference(branch.radius_um, 2 * std::log(s)).log_stiffness;
-    }
-  }
-
-  const SampledBranch& branch() const { return *branch_; }
-  double last() const { return s_.back(); }
-  const std::vector<double>& s() const { return s_; }
-
-  /// Measures as `Scaling` has them, and ln(E) less that of the reference.
-  Eigen::VectorXd numbers(const std::vector<double>& weights) const {
-    return numbers_.transpose() * Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights));
-  }
-  Eigen::MatrixX2d contour(const std::vector<double>& weights) const {
-    Eigen::MatrixX2d sum = weights[0] * branch_->contour[0];
-    for (std::size_t k = 1; k < weights.size(); ++k) sum += weights[k] * branch_->contour[k];
-    return sum;
-  }
-  /// Relative, of the deformation: what the polynomial makes of the independent errors of the states.
-  double error(double s) const {
-    const auto weights = lagrange_weights(s_, std::clamp(s, s_.front(), s_.back())).value;
-    double squares = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) squares += std::pow(weights[k] * branch_->error[k], 2);
-    return std::sqrt(squares);
-  }
-  double log_ratio(int sample) const { return numbers_(sample, measure_count); }
-  /// ln(E) over the reference at a sample by the others.
-  double log_ratio_without(int sample) const {
-    std::vector<double> nodes, values;
-    for (int k = 0; k < branch_->samples(); ++k) {
-      if (k == sample) continue;
-      nodes.push_back(s_[std::size_t(k)]);
-      values.push_back(log_ratio(k));
-    }
-    const auto weights = lagrange_weights(nodes, s_[std::size_t(sample)]).value;
-    double sum = 0;
-    for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * values[k];
-    return sum;
-  }
-
- private:
-  const SampledBranch* branch_;
-  std::vector<double> s_;
-  Eigen::MatrixXd numbers_;  ///< samples x (measures, ln of the ratio)
-};
 
 bool has_curve(const SampledBranch& branch) { return branch.samples() > 2; }
 
@@ -177,7 +55,7 @@ class Surface {
     set_ends();
   }
 
-  const std::vector<Curve>& curves() const { return curves_; }
+  const std::vector<BranchCurve>& curves() const { return curves_; }
 
   /// Polynomials do not go on beyond the computed radii.
   bool reaches(double radius_um) const {
@@ -197,7 +75,7 @@ class Surface {
   double last(const Radius& radius) const {
     std::size_t right = 1;
     while (right + 1 < curves_.size() && curves_[right].branch().radius_um < radius.um) ++right;
-    const Curve &a = curves_[right - 1], &b = curves_[right];
+    const BranchCurve &a = curves_[right - 1], &b = curves_[right];
     const double fraction = (radius.um - a.branch().radius_um) / (b.branch().radius_um - a.branch().radius_um);
     return std::min(a.last() + fraction * (b.last() - a.last()), reach_ * radius.length);
   }
@@ -228,9 +106,7 @@ class Surface {
       values.push_back(curves_[i].numbers(along.value)(measure_count));
     }
     const auto weights = across(curves_[left_out].branch().radius_um, std::ptrdiff_t(left_out));
-    double sum = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * values[i];
-    return sum;
+    return std::inner_product(weights.begin(), weights.end(), values.begin(), 0.0);
   }
 
  private:
@@ -242,7 +118,7 @@ class Surface {
     Eigen::MatrixX3d powers(count, 3);
     Eigen::VectorXd last(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const Curve& curve = curves_[std::size_t(i)];
+      const BranchCurve& curve = curves_[std::size_t(i)];
       const double x = curve.branch().radius_um / curves_.back().branch().radius_um;
       powers.row(i) << 1, x, x * x;
       last(i) = curve.last();
@@ -281,7 +157,7 @@ class Surface {
 
   ReferenceStiffness reference_;
   double half_width_um_;
-  std::vector<Curve> curves_;
+  std::vector<BranchCurve> curves_;
   std::vector<double> ends_;  ///< sqrt(d), one for each curve
   double reach_ = 1;          ///< so many lengths are within the states of all curves, or little beyond
 };
@@ -293,19 +169,19 @@ LeftOut left_out(const Surface& surface) {
     for (int k = 0; k < curves[i].branch().samples(); ++k)
       miss.radius = std::max(
           miss.radius, std::abs(surface.log_ratio_without(i, curves[i].s()[std::size_t(k)]) - curves[i].log_ratio(k)));
-  for (const Curve& curve : curves)
+  for (const BranchCurve& curve : curves)
     for (int k = 1; k + 1 < curve.branch().samples(); ++k)
       miss.state = std::max(miss.state, std::abs(curve.log_ratio_without(k) - curve.log_ratio(k)));
   return miss;
 }
 
-const Curve& nearest(const std::vector<Curve>& curves, double radius_um) {
-  return *std::ranges::min_element(curves, {},
-                                   [&](const Curve& curve) { return std::abs(curve.branch().radius_um - radius_um); });
+const BranchCurve& nearest(const std::vector<BranchCurve>& curves, double radius_um) {
+  return *std::ranges::min_element(
+      curves, {}, [&](const BranchCurve& curve) { return std::abs(curve.branch().radius_um - radius_um); });
 }
 
 SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double radius_um, double miss) {
-  const Curve& curve = nearest(surface.curves(), radius_um);
+  const BranchCurve& curve = nearest(surface.curves(), radius_um);
   const SampledBranch& near = curve.branch();
   SampledBranch branch;
   branch.radius_um = radius_um;
@@ -330,30 +206,6 @@ SampledBranch dense_branch(const TableSpec& spec, const Surface& surface, double
 }
 
 }  // namespace
-
-std::vector<double> roots_of_deformation(const SampledBranch& branch) {
-  std::vector<double> roots;
-  for (int k = 0; k < branch.samples(); ++k) roots.push_back(sqrt_deformation(branch, k));
-  return roots;
-}
-
-void set_slopes(SampledBranch& branch, const std::vector<double>& s) {
-  const int n = branch.samples();
-  branch.slope = Eigen::MatrixXd::Zero(n, measure_count);
-  branch.contour_slope.assign(std::size_t(n), {});
-  for (int k = 0; k < n; ++k) {
-    const auto weights = lagrange_weights(s, s[std::size_t(k)]).slope;
-    double of_log_stiffness = -1 / s[std::size_t(k)];
-    auto& contour = branch.contour_slope[std::size_t(k)] = Eigen::MatrixX2d::Zero(branch.contour.front().rows(), 2);
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-      of_log_stiffness += weights[j] * std::log(branch.stiffness[j] * s[j]);
-      branch.slope.row(k) += weights[j] * branch.value.row(Eigen::Index(j));
-      contour += weights[j] * branch.contour[j];
-    }
-    branch.slope.row(k) /= of_log_stiffness;
-    contour /= of_log_stiffness;
-  }
-}
 
 bool can_lie_between(std::span<const SampledBranch> computed) {
   return std::ranges::count_if(computed, has_curve) >= fewest_radii;

@@ -9,12 +9,6 @@
 
 namespace rheocyte {
 
-/// Slopes along a branch from its values alone: those of the polynomials through all samples over a number of each one
-/// that grows about as 1 / stiffness.
-void set_slopes(SampledBranch&, const std::vector<double>& along);
-/// Such a number: the root of the deformation.
-std::vector<double> roots_of_deformation(const SampledBranch&);
-
 /// Whether enough radii have states.
 bool can_lie_between(std::span<const SampledBranch> computed);
 

@@ -51,19 +51,18 @@ bool has_cortex(const KeyReading& keys) { return keys.chosen(cortex_law_key) != 
 void check_combined(TableSpec& spec, const KeyReading& keys) {
   constexpr std::string_view fractions = "table.cortex_fraction";
   if (keys.has("table.stiffness") && !spec.is_combined())
-    keys.refuse("table.stiffness", fmt::format("{} does not go with {}; write \"{}\" or leave it out.",
-                                               keys.stated("table.stiffness"), fractions, combined_stiffness));
+    keys.refuse_stated("table.stiffness",
+                       fmt::format("does not go with {}; write \"{}\" or leave it out", fractions, combined_stiffness));
   spec.stiffness_key = combined_stiffness;
   if (!has_bulk(keys) || !has_cortex(keys))
     keys.refuse(fractions, fmt::format("{} needs a law of the bulk and one of the cortex.", fractions));
   if (spec.cortex_fractions.size() < 2)
     keys.refuse(fractions, fmt::format("{} needs at least two fractions, such as [0, 0.5, 1].", fractions));
   if (keys.has(tension_key))
-    keys.refuse(tension_key, fmt::format("{} does not go with {}; give {} instead.", keys.stated(tension_key),
-                                         fractions, ratio_key));
+    keys.refuse_stated(tension_key, fmt::format("does not go with {}; give {} instead", fractions, ratio_key));
   const auto exclude = [&](std::string_view one, std::string_view other) {
     if (keys.has(one) && keys.has(other))
-      keys.refuse(one, fmt::format("{} and {} exclude each other; give one of them.", keys.stated(one), other));
+      keys.refuse_stated(one, fmt::format("and {} exclude each other; give one of them", other));
   };
   exclude(ratio_key, "table.tension_ratio");
   if (spec.bending_ratio > 0) exclude(bending_key, "table.bending_ratio");
@@ -94,9 +93,9 @@ void choose_stiffness(TableSpec& spec, const KeyReading& keys) {
   if (spec.is_combined())
     keys.refuse(key, "table.stiffness = \"combined\" needs table.cortex_fraction, such as [0, 0.5, 1].");
   if (found == stiffness_keys.begin() ? !bulk : !cortex)
-    keys.refuse(key,
-                fmt::format("{} cannot be swept, because {} is \"none\"; choose a law, or sweep the other modulus.",
-                            keys.stated(key), found == stiffness_keys.begin() ? bulk_law_key : cortex_law_key));
+    keys.refuse_stated(key,
+                       fmt::format("cannot be swept, because {} is \"none\"; choose a law, or sweep the other modulus",
+                                   found == stiffness_keys.begin() ? bulk_law_key : cortex_law_key));
 }
 
 // Keys of a case that the sweep gives.
@@ -110,7 +109,7 @@ std::vector<std::string_view> swept_keys(const TableSpec& spec) {
 // What the sweep itself gives must not be given as well.
 void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
   const auto refuse = [&](std::string_view key, const std::string& reason) {
-    if (keys.has(key)) keys.refuse(key, fmt::format("{} {}.", keys.stated(key), reason));
+    if (keys.has(key)) keys.refuse_stated(key, reason);
   };
   refuse(radius_key, "must not be given, because a table sweeps it; choose table.min_area_um2 and table.max_area_um2");
   refuse(accuracy_key, "has no effect on a table; choose table.accuracy");
@@ -133,12 +132,11 @@ void check_identifier(const std::string& identifier, const KeyReading& keys) {
   constexpr std::string_view key = "table.identifier";
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '-'; };
   if (identifier.empty() || identifier.size() > longest_identifier || !std::ranges::all_of(identifier, is_plain))
-    keys.refuse(key, fmt::format("{} is not a name of a table; take 1 to {} letters, digits and hyphens.",
-                                 keys.stated(key), longest_identifier));
+    keys.refuse_stated(
+        key, fmt::format("is not a name of a table; take 1 to {} letters, digits and hyphens", longest_identifier));
   for (const auto foreign : foreign_identifiers)
     if (edit_distance(identifier, foreign) == 0)
-      keys.refuse(key,
-                  fmt::format("{} is the name of a published table of others; choose another one.", keys.stated(key)));
+      keys.refuse_stated(key, "is the name of a published table of others; choose another one");
 }
 
 void check_order(const TableSpec& spec, const KeyReading& keys) {
@@ -170,14 +168,14 @@ void check_areas(const TableSpec& spec, const KeyReading& keys) {
 
 void check_bending(const TableSpec& spec, const KeyReading& keys) {
   if (spec.bending_from_margin > 0 && spec.bending_beyond_ratio == 0)
-    keys.refuse(from_margin_key,
-                fmt::format("{} has no effect without {}; give that too, such as 3e-5, or leave it out.",
-                            keys.stated(from_margin_key), beyond_ratio_key));
+    keys.refuse_stated(
+        from_margin_key,
+        fmt::format("has no effect without {}; give that too, such as 3e-5, or leave it out", beyond_ratio_key));
   if (spec.bending_beyond_kBT == 0) return;
   if (spec.is_square())
-    keys.refuse(beyond_key, fmt::format("{} is for tubes, because a polynomial over the radius needs cells that are "
-                                        "alike; give {}, such as 3e-5, or leave it out.",
-                                        keys.stated(beyond_key), beyond_ratio_key));
+    keys.refuse_stated(beyond_key, fmt::format("is for tubes, because a polynomial over the radius needs cells that "
+                                               "are alike; give {}, such as 3e-5, or leave it out",
+                                               beyond_ratio_key));
   if (const double own = spec.base.cell.cortex.bending_kBT; spec.bending_beyond_kBT <= own)
     keys.refuse(beyond_key,
                 fmt::format("{} = {:g} does not exceed {} = {:g}, which all states have; raise it or leave it out.",
@@ -196,19 +194,14 @@ void check_elongation(const TableSpec& spec, const KeyReading& keys) {
         axial_key,
         fmt::format("{} needs at least four numbers, 0 among them, such as [-0.1, 0, 0.15, 0.3, 0.45].", axial_key));
   if (spec.elongation == Elongation::by_rest_shape && spec.is_combined())
-    keys.refuse(elongated_by_key,
-                fmt::format("{} is for solids; cells with bulk and cortex are elongated by a tension.",
-                            keys.stated(elongated_by_key)));
+    keys.refuse_stated(elongated_by_key, "is for solids; cells with bulk and cortex are elongated by a tension");
   if (spec.bending_beyond_ratio > 0)
-    keys.refuse(beyond_ratio_key,
-                fmt::format("{} does not go with {}; leave it out.", keys.stated(beyond_ratio_key), axial_key));
+    keys.refuse_stated(beyond_ratio_key, fmt::format("does not go with {}; leave it out", axial_key));
 }
 
 void check_section(const Case& c, const KeyReading& keys) {
   if (c.channel.section == Section::rectangle)
-    keys.refuse(channel_section_key,
-                fmt::format("{} is not for tables, which are those of tubes and of square channels.",
-                            keys.stated(channel_section_key)));
+    keys.refuse_stated(channel_section_key, "is not for tables, which are those of tubes and of square channels");
 }
 
 void check_liquid(const Case& c, const KeyReading& keys) {

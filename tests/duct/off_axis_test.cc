@@ -7,6 +7,7 @@
 #include "duct/cell_moments.h"
 #include "duct/duct_silhouette.h"
 #include "duct/duct_system.h"
+#include "duct/outline_off_axis.h"
 #include "shape/measures.h"
 #include "shape/outline_shape.h"
 #include "taylor.h"

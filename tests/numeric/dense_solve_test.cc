@@ -24,6 +24,19 @@ TEST(DenseSolve, ASingularSystemHasNoFiniteSolution) {
   EXPECT_FALSE(solve_dense(Eigen::MatrixXd::Zero(3, 3), Eigen::VectorXd::Ones(3)).allFinite());
 }
 
+TEST(DenseSolve, AMatrixThatIsSingularToRoundingHasNoRegularInverse) {
+  const Eigen::MatrixXd A = positive_definite(4), B = Eigen::MatrixXd::Random(4, 3);
+  EXPECT_LT((A * regular_inverse(A) - Eigen::MatrixXd::Identity(4, 4)).norm(), rounding);
+  EXPECT_EQ(regular_inverse(B * B.transpose()).size(), 0);
+}
+
+TEST(DenseSolve, ANullVectorIsMappedToNothing) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(4, 5);
+  const Eigen::VectorXd x = null_vector(A);
+  EXPECT_GT(x.norm(), 0);
+  EXPECT_LT((A * x).norm(), rounding * x.norm());
+}
+
 TEST(DenseSolve, TheResidualOfLeastSquaresIsOrthogonalToTheColumns) {
   const Eigen::MatrixXd A = Eigen::MatrixXd::Random(20, 4);
   const Eigen::VectorXd b = Eigen::VectorXd::Random(20);

@@ -7,6 +7,7 @@
 
 #include "../refusal.h"
 #include "invented_branch.h"
+#include "table/branch_curve.h"
 #include "table/grid_from_branches.h"
 
 namespace rheocyte::square_branches_test {
