@@ -1,5 +1,6 @@
 #include "fem/fitted_mesh.h"
 
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <limits>

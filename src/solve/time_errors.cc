@@ -241,9 +241,8 @@ std::string told_of_failure(const OtherRun& other, bool has_settled) {
 /// Coarser steps, or finer ones where those are too coarse or do not arrive.
 OtherRun with_other_steps(const FollowedRun& first, const WorkLimits& limits) {
   const double coarser = coarser_steps * first.run.accuracy, finer = first.run.accuracy / coarser_steps;
-  const bool can_be_coarser = coarser <= max_coarser_accuracy;
-  OtherRun steps = follow_again(first, can_be_coarser ? coarser : finer, first.resolution, limits);
-  if (!can_be_coarser || steps.has_arrived() || steps.status == Status::stopped) return steps;
+  OtherRun steps = follow_again(first, coarser <= max_coarser_accuracy ? coarser : finer, first.resolution, limits);
+  if (steps.accuracy == finer || steps.has_arrived() || steps.status == Status::stopped) return steps;
   return follow_again(first, finer, first.resolution, limits);
 }
 
@@ -270,7 +269,7 @@ OtherRuns follow_others(const FollowedRun& first, const WorkLimits& limits, cons
 
 TimeWay estimate_errors(const FollowedRun& first, const WorkLimits& limits, StationaryState& result) {
   const OtherRuns others = follow_others(first, limits, result);
-  const double d = result.shape.deformation, size = std::max(d, result.deformation_floor);
+  const double size = std::max(result.shape.deformation, result.deformation_floor);
   result.comparison = others.tell() ? Status::converged : others.failed().status;
   if (others.are_stopped()) {
     result.comparison = Status::stopped;
@@ -293,7 +292,7 @@ TimeWay estimate_errors(const FollowedRun& first, const WorkLimits& limits, Stat
   result.step_error = end.steps.shape.deformation / size;
   result.errors = end.sum();
   result.estimated_error = result.errors.shape.deformation / size;
-  result.outcome.message += told(mesh, others, d);
+  result.outcome.message += told(mesh, others, result.shape.deformation);
   return {errors_at(steps, others, &TimeWay::steps, first.is_at_place, of_steps),
           errors_at(first.way.outputs, others, &TimeWay::outputs, first.run.outputs_by_place, of_outputs)};
 }
