@@ -17,8 +17,8 @@ namespace {
 constexpr int max_steps = 20;
 constexpr double worthwhile_decrease = 1e-3;
 constexpr int max_halvings = 10;
-/// Of a Hessian that is not positive definite, relative to its diagonal, and how it grows.
-constexpr double first_shift = 1e-3, shift_growth = 10, last_shift = 1e3;
+/// Shifts of a Hessian's diagonal, relative to it, until it is positive definite.
+constexpr double shifts[] = {0, 1e-3, 1e-2, 0.1, 1, 10, 100, 1e3};
 
 template <int dim>
 using Square = Eigen::Matrix<double, dim, dim>;
@@ -157,7 +157,7 @@ std::optional<VectorXd> descent(const VectorXd& gradient, const Eigen::SparseMat
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors;
   factors.analyzePattern(hessian);
   const VectorXd diagonal = hessian.diagonal().cwiseAbs();
-  for (double shift = 0; shift < last_shift; shift = shift == 0 ? first_shift : shift_growth * shift) {
+  for (const double shift : shifts) {
     Eigen::SparseMatrix<double> shifted = hessian;
     shifted.diagonal() += shift * diagonal;
     factors.factorize(shifted);
