@@ -39,13 +39,15 @@ class _Flow:
     axial_tension_Pa: float | None  # even tension of the surroundings along the flow, as of an elastic liquid: a traction T n_x e_x on the cell
 
 class _CellBulk:
-    law: Literal["linear", "neo-hookean", "mooney-rivlin", "none"]  # elastic law of the cell's interior, none: a liquid, which makes the cell a shell
+    law: Literal["linear", "neo-hookean", "mooney-rivlin", "fung", "none"]  # elastic law of the cell's interior, fung: the neo-hookean one, stiffening exponentially with the strain; none: a liquid, which makes the cell a shell
     young_modulus_kPa: float | None  # Young's modulus of the cell's interior, which is incompressible
     c1_fraction: float | None  # fraction of the neo-hookean law in the mooney-rivlin one, the rest is linear
+    stiffening: float | None  # b of the fung law, whose stress is the neo-hookean one times exp(b (I1 - 3)), with I1 the sum of the squared stretches; 0 = neo-hookean
 
 class _CellCortex:
     law: Literal["none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference", "skalak"]  # elastic law of the cell's surface, the cortex
     modulus_mN_per_m: float | None  # elastic modulus E2D of the cortex, Young's modulus x thickness
+    area_constant: float | None  # constant C of the skalak law, the resistance of the cortex to a change of its area; its Poisson's ratio is C / (1 + C)
     tension_mN_per_m: float | None  # surface tension of the cell
     tension_ratio: float | None  # surface tension as a fraction of the modulus of the cortex
     bending_kBT: float | None  # bending stiffness c_b of the cell's surface in units of k_B T at 25 degrees C (4.116e-21 J)

@@ -7,7 +7,9 @@ import numpy as np
 
 def written(law):
     """A case's name of an elastic law as text: people are written with capitals."""
-    return law.replace("hookean", "Hookean").replace("mooney-rivlin", "Mooney-Rivlin").replace("skalak", "Skalak")
+    for name in ("hookean", "mooney", "rivlin", "fung", "skalak"):
+        law = law.replace(name, name.capitalize())
+    return law
 
 
 def made_of(result):

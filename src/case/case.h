@@ -49,7 +49,7 @@ struct Flow {
 /// The interior of the cell.
 struct BulkCase {
   BulkLaw law = BulkLaw::neo_hookean;
-  std::optional<double> young_modulus_kPa, c1_fraction;
+  std::optional<double> young_modulus_kPa, c1_fraction, stiffening;
 };
 
 /// The cell's surface. Tension is given in mN/m or as a fraction of the modulus, not both.
@@ -57,6 +57,7 @@ struct CortexCase {
   CortexLaw law = CortexLaw::none;
   std::optional<double> modulus_mN_per_m, tension_mN_per_m, tension_ratio;
   double bending_kBT = 0;
+  std::optional<double> area_constant = {};  ///< only of Skalak's law
 };
 
 struct Cell {

@@ -8,12 +8,13 @@ namespace {
 
 constexpr Condition newtonian{"flow.law", "newtonian"}, power_law{"flow.law", "power-law"},
     carreau{"flow.law", "carreau"}, shear_thinning{"flow.law", "newtonian", true},
-    mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, has_bulk{"cell.bulk.law", "none", true},
-    has_shell{"cell.cortex.law", "none", true}, in_time{"time.scheme", "stationary", true},
-    in_duct{"channel.section", "tube", true}, has_offset{"cell.offset_um", ""},
-    rectangle{"channel.section", "rectangle"}, monolithic{"time.scheme", "monolithic"},
-    partitioned{"time.scheme", "partitioned"}, linear_solid{"cell.viscoelasticity", "standard-linear-solid"},
-    has_rate{"flow.drive", "pressure-drop", true}, has_pressure_drop{"flow.drive", "pressure-drop"};
+    mooney_rivlin{"cell.bulk.law", "mooney-rivlin"}, fung{"cell.bulk.law", "fung"}, skalak{"cell.cortex.law", "skalak"},
+    has_bulk{"cell.bulk.law", "none", true}, has_shell{"cell.cortex.law", "none", true},
+    in_time{"time.scheme", "stationary", true}, in_duct{"channel.section", "tube", true},
+    has_offset{"cell.offset_um", ""}, rectangle{"channel.section", "rectangle"},
+    monolithic{"time.scheme", "monolithic"}, partitioned{"time.scheme", "partitioned"},
+    linear_solid{"cell.viscoelasticity", "standard-linear-solid"}, has_rate{"flow.drive", "pressure-drop", true},
+    has_pressure_drop{"flow.drive", "pressure-drop"};
 
 // The member of a case is the name of its key; behind it stand the other parts of its KeyDescription in their order.
 #define FIELD(member) ([](auto& c) -> auto& { return c.member; })
@@ -123,17 +124,27 @@ const std::array table = {
     KEY(cell.branch_modulus_kPa, "kPa", "Young's modulus of the spring in series with the viscosity",
         Number{{1e-6, 1e9}}, required, linear_solid),
     KEY(cell.density_kg_per_m3, "kg/m3", "density of the cell", Number{{0, 1e6}}, 1000.0, in_time),
-    KEY(cell.bulk.law, "", "elastic law of the cell's interior, none: a liquid, which makes the cell a shell",
-        Choice{{"linear", "neo-hookean", "mooney-rivlin", "none"}}, 1),
+    KEY(cell.bulk.law, "",
+        "elastic law of the cell's interior, fung: the neo-hookean one, stiffening exponentially with the strain; "
+        "none: a liquid, which makes the cell a shell",
+        Choice{{"linear", "neo-hookean", "mooney-rivlin", "fung", "none"}}, 1),
     KEY(cell.bulk.young_modulus_kPa, "kPa", "Young's modulus of the cell's interior, which is incompressible",
         Number{{1e-6, 1e9}}, required, has_bulk, {}, "--young-modulus-kPa"),
     KEY(cell.bulk.c1_fraction, "", "fraction of the neo-hookean law in the mooney-rivlin one, the rest is linear",
         Number{{0, 1}}, 0.5, mooney_rivlin, {}, {}, {}, "cell.bulk.mooney_share"),
+    KEY(cell.bulk.stiffening, "",
+        "b of the fung law, whose stress is the neo-hookean one times exp(b (I1 - 3)), with I1 the sum of the squared "
+        "stretches; 0 = neo-hookean",
+        Number{{0, 100}}, 1.0, fung),
 
     KEY(cell.cortex.law, "", "elastic law of the cell's surface, the cortex",
         Choice{{"none", "linear", "thin-shell", "neo-hookean", "neo-hookean-reference", "skalak"}}, 0),
     KEY(cell.cortex.modulus_mN_per_m, "mN/m", "elastic modulus E2D of the cortex, Young's modulus x thickness",
         Number{{1e-6, 1e9}}, required, has_shell, {}, "--cortex-modulus-mN-m"),
+    KEY(cell.cortex.area_constant, "",
+        "constant C of the skalak law, the resistance of the cortex to a change of its area; its Poisson's ratio is "
+        "C / (1 + C)",
+        Number{{0.01, 1000}}, 1.0, skalak),
     KEY(cell.cortex.tension_mN_per_m, "mN/m", "surface tension of the cell", Number{{0, 1e9}}, 0.0, {},
         "cell.cortex.tension_ratio"),
     KEY(cell.cortex.tension_ratio, "", "surface tension as a fraction of the modulus of the cortex", Number{{0, 1e3}},

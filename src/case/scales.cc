@@ -160,7 +160,8 @@ Problem problem_of(const Case& c) {
                   .c1_fraction = c.cell.bulk.c1_fraction.value_or(1),
                   .viscosity = c.cell.viscosity_mPas.value_or(0) * Pas_per_mPas * U / (S * R),
                   .reynolds = c.cell.density_kg_per_m3.value_or(0) * inertia,
-                  .rest_stretch = std::pow(c.cell.rest_aspect, 2.0 / 3)};
+                  .rest_stretch = std::pow(c.cell.rest_aspect, 2.0 / 3),
+                  .stiffening = c.cell.bulk.stiffening.value_or(1)};
   if (const auto kind = c.cell.viscoelasticity; kind == Viscoelasticity::maxwell) {
     problem.bulk.branch_modulus = std::exchange(problem.bulk.shear_modulus, 0);
   } else if (kind == Viscoelasticity::standard_linear_solid) {
@@ -170,7 +171,8 @@ Problem problem_of(const Case& c) {
                     .modulus = c.cell.cortex.modulus_mN_per_m.value_or(0) * N_per_mN / (S * R),
                     .tension = tension_mN_per_m(c) * N_per_mN / (S * R),
                     .bending = c.cell.cortex.bending_kBT * thermal_energy_J / (S * R * R * R),
-                    .rest_stretch = problem.bulk.rest_stretch};
+                    .rest_stretch = problem.bulk.rest_stretch,
+                    .area_constant = c.cell.cortex.area_constant.value_or(1)};
   axial_tension(problem) = c.flow.axial_tension_Pa / S;
   problem.section = c.channel.section;
   problem.extent = extent_of(c);

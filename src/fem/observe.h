@@ -3,6 +3,7 @@
 #include "fem/discretisation.h"
 #include "fem/element_integrals.h"
 #include "laws/cortex.h"
+#include "laws/short_waves.h"
 #include "shape/contour.h"
 
 namespace rheocyte {
@@ -26,12 +27,11 @@ Eigen::MatrixX2d surface_tensions(const Cortex&, const SurfaceState&);
 
 /// Least ratio of meridional to normal stretch along the surface. A free surface of any incompressible
 /// Mooney-Rivlin solid loses stability against short meridional wrinkles below `biot_limit` (Biot 1963;
-/// docs/theory.md, eq:biot); the boundary value problem is then ill-posed and results depend on the mesh.
+/// docs/theory.md, eq:biot; laws/short_waves.h); the boundary value problem is then ill-posed and results depend on the
+/// mesh.
 double min_biot_ratio(const SurfaceState&);
 /// That ratio at the points.
 VectorXd biot_ratios(const SurfaceState&);
-/// Real root of x^3 + x^2 + 3 x = 1.
-inline constexpr double biot_limit = 0.29559774252208477;
 
 /// The least of some values at the points of the surface, and between them: near the least one they go along a
 /// parabola.

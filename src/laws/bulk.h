@@ -15,14 +15,17 @@ struct Bulk {
   double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
   double rest_stretch = 1;    ///< along x, of the sphere into the spheroid without stress (eq:rest-shape)
   double axial_tension = 0;   ///< of the surroundings along x, over S (eq:axial-tension)
+  double stiffening = 1;      ///< b of Fung's law; 0: neo-Hookean
 };
 
-/// Fraction a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi.
+/// Fraction a of the neo-Hookean member in the law: 1 = neo-Hookean, 0 = Euler-Almansi. Fung's law is neo-Hookean at
+/// small strains.
 constexpr double neo_hookean_fraction(const Bulk& bulk) {
   switch (bulk.law) {
     case BulkLaw::linear: return 0;
     case BulkLaw::mooney_rivlin: return bulk.c1_fraction;
     case BulkLaw::neo_hookean:
+    case BulkLaw::fung:
     case BulkLaw::none: return 1;
   }
   return 1;
@@ -41,11 +44,21 @@ Tensor from_rest_shape(Tensor F, double rest_stretch) {
   return F;
 }
 
+/// By which Fung's law is stiffer than the neo-Hookean one: exp(b (I1 - 3)), from the energy
+/// mu / (2 b) (exp(b (I1 - 3)) - 1); 1 for the other laws (docs/theory.md, eq:fung).
+template <class Tensor>
+typename Tensor::Scalar stiffening_factor(const Bulk& bulk, const Tensor& B) {
+  using T = typename Tensor::Scalar;
+  using std::exp;
+  return bulk.law == BulkLaw::fung ? exp((B.trace() - T(3)) * T(bulk.stiffening)) : T(1);
+}
+
 /// Extra Kirchhoff stress J sigma = mu [a B + (1 - a)(I1 B - B^2)] - mu (2 - a) I, B = F F^T; the pressure comes on
 /// top of it. For J = 1 this is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I, because of Cayley and
 /// Hamilton's I1 B - B^2 = I2 I - J^2 B^-1. Written so, it derives from polyconvex energies off J = 1 as well:
 /// elements that meet J = 1 only on average would otherwise lose stability long before the material does.
-/// Where the cell is free of stress as a spheroid, F is that from the spheroid.
+/// Fung's law is that of a = 1 with mu exp(b (I1 - 3)) B in place of mu B, polyconvex too. Where the cell is free of
+/// stress as a spheroid, F is that from the spheroid.
 template <class Tensor>
 Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
   using T = typename Tensor::Scalar;
@@ -53,6 +66,7 @@ Tensor elastic_stress(const Bulk& bulk, const Tensor& F) {
   const Tensor from_rest = bulk.rest_stretch == 1 ? F : from_rest_shape(F, bulk.rest_stretch);
   const Tensor B = from_rest * from_rest.transpose();
   Tensor tau = B * T(mu * a);
+  if (bulk.law == BulkLaw::fung) tau = tau * stiffening_factor(bulk, B);
   if (a != 1) tau += (B * B.trace() - B * B) * T(mu * (1 - a));
   for (int i = 0; i < 3; ++i) tau(i, i) -= T(mu * (2 - a));
   return tau;

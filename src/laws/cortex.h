@@ -15,16 +15,17 @@ struct Cortex {
   double bending = 0;        ///< stiffness c_b / (S R^3)
   double rest_stretch = 1;   ///< along x, of the sphere into the spheroid that the shell rests in (eq:rest-shape)
   double axial_tension = 0;  ///< of the surroundings of a pure shell, over S; that of a solid is in Bulk
+  double area_constant = 1;  ///< Skalak's C: how much his shell resists a change of area
 };
 
 /// By which the pressure in a sphere at rest exceeds that around it (Laplace).
 inline double rest_pressure(const Cortex& cortex, double radius) { return 2 * cortex.tension / radius; }
 
 /// Elastic energy of the shell per CURRENT area, zero at rest, of two invariants: the sum of the principal stretches
-/// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D. linear: the energy whose tensions are
-/// eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone); thin_shell, neo_hookean: their eqs. 8a
-/// and 8b; neo_hookean_reference, skalak (Skalak et al. 1973, doi 10.1016/S0006-3495(73)85983-1): energies per
-/// reference area.
+/// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D, but for skalak: C / (1 + C). linear:
+/// the energy whose tensions are eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone);
+/// thin_shell, neo_hookean: their eqs. 8a and 8b; neo_hookean_reference, skalak (Skalak et al. 1973,
+/// doi 10.1016/S0006-3495(73)85983-1): energies per reference area.
 template <class T>
 T shell_energy_of(const Cortex& cortex, const T& sum, const T& area) {
   const double E2D = cortex.modulus, K = 4.0 / 3 * E2D;
@@ -39,7 +40,8 @@ T shell_energy_of(const Cortex& cortex, const T& sum, const T& area) {
     case CortexLaw::neo_hookean_reference: return constant<T>(E2D / 6) * incompressible / area;
     case CortexLaw::skalak: {
       const T I1 = squares - constant<T>(2), I2 = area * area - constant<T>(1);
-      return constant<T>(E2D / 12) * (I1 * I1 + constant<T>(2) * (I1 - I2) + I2 * I2) / area;
+      const double C = cortex.area_constant, G = E2D * (1 + C) / (2 * (1 + 2 * C));
+      return constant<T>(G / 4) * (I1 * I1 + constant<T>(2) * (I1 - I2) + constant<T>(C) * I2 * I2) / area;
     }
   }
   return constant<T>(0);

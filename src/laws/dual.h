@@ -82,6 +82,11 @@ struct Dual {
     const T root = sqrt(a.value);
     return a.composed(root, constant<T>(0.5) / root);
   }
+  friend Dual exp(const Dual& a) {
+    using std::exp;
+    const T power = exp(a.value);
+    return a.composed(power, power);
+  }
   friend Dual log(const Dual& a) {
     using std::log;
     return a.composed(log(a.value), constant<T>(1) / a.value);

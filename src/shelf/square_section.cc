@@ -22,6 +22,7 @@ SquareSection::SquareSection(Section section, const Case& tube) {
     case BulkLaw::neo_hookean: tables_.emplace(std::string(), Section::square); break;
     case BulkLaw::linear: tables_.emplace("LE-3D-26"); break;
     case BulkLaw::mooney_rivlin:
+    case BulkLaw::fung:
     case BulkLaw::none: break;
   }
 }

@@ -62,14 +62,15 @@ SurfaceProfile profile(const DuctSpace& space, const VectorXd& unknowns, const C
   return profile;
 }
 
-SurfaceExtremes surface_extremes(const Cortex& cortex, const Eigen::MatrixX2d& stretch) {
-  double min_tension = std::numeric_limits<double>::infinity();
+SurfaceExtremes surface_extremes(const Media& media, const Eigen::MatrixX2d& stretch) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  SurfaceExtremes least{none, none};
   for (const auto& row : stretch.rowwise()) {
-    const auto [T1, T2] = principal_tensions<double>(cortex, row(0), row(1));
-    min_tension = std::min({min_tension, T1, T2});
+    const auto [T1, T2] = principal_tensions<double>(media.cortex, row(0), row(1));
+    least.min_tension = std::min({least.min_tension, T1, T2});
+    least.wrinkling_margin = std::min(least.wrinkling_margin, wrinkling_margin(media.bulk, row(0), row(1)));
   }
-  // Incompressible: the normal stretch is 1 / (least greatest).
-  return {(stretch.col(0).array().square() * stretch.col(1).array()).minCoeff(), min_tension};
+  return least;
 }
 
 void read_flow(const Problem& problem, const DuctDiscrete& discrete, const VectorXd& unknowns, StateNumbers& r) {
@@ -124,7 +125,7 @@ Contour DuctDiscrete::contour(const Problem& problem, const VectorXd& unknowns) 
 
 double DuctDiscrete::stability_margin(const Problem& problem, const VectorXd& unknowns) const {
   const auto stretch = duct_principal_stretches(space(), unknowns, problem.cortex.rest_stretch);
-  return rheocyte::stability_margin(problem, problem.radius_ratio, surface_extremes(problem.cortex, stretch));
+  return rheocyte::stability_margin(problem, problem.radius_ratio, surface_extremes(problem, stretch));
 }
 
 bool DuctDiscrete::is_wrinkled(const Problem& problem, const VectorXd& unknowns) const {
@@ -147,9 +148,10 @@ StateNumbers DuctDiscrete::numbers(const Problem& problem, const VectorXd& unkno
   r.relative_volume_change = volume.volume / (4.0 / 3 * std::numbers::pi * a * a * a) - 1;
   read_flow(problem, *this, unknowns, r);
   const auto stretch = duct_principal_stretches(space, unknowns, problem.cortex.rest_stretch);
-  const SurfaceExtremes surface = surface_extremes(problem.cortex, stretch);
+  const SurfaceExtremes surface = surface_extremes(problem, stretch);
   r.min_meridional_stretch = stretch.col(0).minCoeff();
-  r.biot_ratio = surface.biot_ratio;
+  // Incompressible: the normal stretch is 1 / (least greatest).
+  r.biot_ratio = (stretch.col(0).array().square() * stretch.col(1).array()).minCoeff();
   r.stability_margin = rheocyte::stability_margin(problem, problem.radius_ratio, surface);
   r.min_tension = surface.min_tension;
   if (const int p = space.inner_pressure(); p >= 0)

@@ -14,14 +14,21 @@ constexpr double shortest_wave = 0.05;
 
 }  // namespace
 
+VectorXd wrinkling_margins(const Bulk& bulk, const SurfaceState& surface) {
+  return VectorXd::NullaryExpr(surface.stretch.rows(), [&](Eigen::Index i) {
+    return wrinkling_margin(bulk, surface.stretch(i, 0), surface.stretch(i, 1));
+  });
+}
+
 double stability_margin(const Problem& problem, const SurfaceState& surface) {
   return stability_margin(problem, problem.radius_ratio,
-                          {min_biot_ratio(surface), surface_tensions(problem.cortex, surface).col(0).minCoeff()});
+                          {wrinkling_margins(problem.bulk, surface).minCoeff(),
+                           surface_tensions(problem.cortex, surface).col(0).minCoeff()});
 }
 
 double stability_margin(const Media& media, double radius_ratio, const SurfaceExtremes& least) {
   switch (surface_kind(media)) {
-    case SurfaceKind::bare: return (least.biot_ratio - biot_limit) / (1 - biot_limit);
+    case SurfaceKind::bare: return least.wrinkling_margin;
     case SurfaceKind::membrane: {
       const Cortex& cortex = media.cortex;
       const double support = media.bulk.shear_modulus * shortest_wave * radius_ratio / std::numbers::pi;

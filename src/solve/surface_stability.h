@@ -9,9 +9,12 @@ namespace rheocyte {
 
 /// What a surface has the least of.
 struct SurfaceExtremes {
-  double biot_ratio;   ///< of a tangential to the normal stretch
-  double min_tension;  ///< principal
+  double wrinkling_margin;  ///< of the bare bulk (laws/short_waves.h)
+  double min_tension;       ///< principal
 };
+
+/// Of the bare bulk at the points of the surface, against wrinkles along the meridian.
+VectorXd wrinkling_margins(const Bulk&, const SurfaceState&);
 
 /// Distance from the limit of stability against short waves: stable above 0, 1 without deformation; 1 throughout where
 /// the surface is held.

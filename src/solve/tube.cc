@@ -125,7 +125,9 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.min_tension = least_along(surface, surface_tensions(state.problem.cortex, surface).col(0));
   r.biot_ratio = least_along(surface, biot_ratios(surface));
   // Tension and moduli are those of the media, which may be on the way to the wanted ones.
-  r.stability_margin = stability_margin(state.problem, state.problem.radius_ratio, {r.biot_ratio, r.min_tension});
+  r.stability_margin =
+      stability_margin(state.problem, state.problem.radius_ratio,
+                       {least_along(surface, wrinkling_margins(state.problem.bulk, surface)), r.min_tension});
   return r;
 }
 

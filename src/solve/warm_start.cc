@@ -32,9 +32,10 @@ bool has_same_channel(const Problem& a, const Problem& b) {
 double distance(const Problem& a, const Problem& b) {
   return std::max(
       {relative_change(a.radius_ratio, b.radius_ratio), relative_change(a.bulk.shear_modulus, b.bulk.shear_modulus),
-       std::abs(a.bulk.c1_fraction - b.bulk.c1_fraction), relative_change(a.cortex.modulus, b.cortex.modulus),
-       relative_change(a.cortex.tension, b.cortex.tension), relative_change(a.cortex.bending, b.cortex.bending),
-       relative_change(a.liquid.exponent, b.liquid.exponent),
+       std::abs(a.bulk.c1_fraction - b.bulk.c1_fraction), std::abs(a.bulk.stiffening - b.bulk.stiffening),
+       relative_change(a.cortex.area_constant, b.cortex.area_constant),
+       relative_change(a.cortex.modulus, b.cortex.modulus), relative_change(a.cortex.tension, b.cortex.tension),
+       relative_change(a.cortex.bending, b.cortex.bending), relative_change(a.liquid.exponent, b.liquid.exponent),
        relative_change(a.liquid.shear_rate_floor, b.liquid.shear_rate_floor),
        std::abs(a.bulk.rest_stretch - b.bulk.rest_stretch), stretch_by_tension(a, b),
        relative_change(a.pressure_gradient, b.pressure_gradient), relative_change(a.offset, b.offset),

@@ -37,7 +37,8 @@ struct StateNumbers {
   double shear_rate_max = no_value;            ///< of the liquid beside the cell, in U/R
   double reynolds = no_value;                  ///< rho v_cell U / S
   double min_meridional_stretch = no_value;    ///< over the surface
-  double biot_ratio = no_value;        ///< least meridional over normal stretch; wrinkles below 0.2956 (eq:biot)
+  double biot_ratio =
+      no_value;  ///< least meridional over normal stretch; Mooney-Rivlin solids wrinkle below 0.2956 (eq:biot)
   double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
   double min_tension = no_value;       ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
 };
@@ -219,7 +220,7 @@ inline constexpr StateMeasure state_measures[] = {
     {.name = "biot_ratio",
      .sentence =
          "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
-         "wrinkles below 0.2956",
+         "wrinkles below 0.2956, that of a fung solid later",
      .member = &StateNumbers::biot_ratio,
      .settles_with = SettlesWith::points},
     {.name = "stability_margin",

@@ -76,7 +76,8 @@ std::string cells_in_words(std::string_view model, Section section) {
   std::string cells(model.substr(0, model.find(" / ")));
   if (cells.empty()) return cells;
   for (const auto& [written, name] : {std::pair<std::string_view, std::string_view>{"neo-hookean", "neo-Hookean"},
-                                      {"mooney-rivlin", "Mooney-Rivlin"}})
+                                      {"mooney-rivlin", "Mooney-Rivlin"},
+                                      {"fung", "Fung"}})
     if (const auto at = cells.find(written); at != std::string::npos) cells.replace(at, written.size(), name);
   return fmt::format("{}s in the {}", cells, section == Section::square ? "square channel" : "tube");
 }

@@ -185,6 +185,11 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
 /// Solids in the square channel, or cells with bulk and cortex.
 void check_elongation(const TableSpec& spec, const KeyReading& keys) {
   if (!spec.is_elongated()) return;
+  if (spec.base.cell.bulk.law == BulkLaw::fung)
+    keys.refuse(axial_key,
+                fmt::format("{} is not for cell.bulk.law = \"fung\", because elongations are told as those of "
+                            "a neo-Hookean solid; choose another law or leave it out.",
+                            axial_key));
   if (!spec.is_combined() && (!spec.is_square() || spec.sweeps_cortex()))
     keys.refuse(axial_key, fmt::format("{} is for solids in the square channel (channel.section = \"square\"), and for "
                                        "cells with bulk and cortex (table.cortex_fraction).",

@@ -71,6 +71,26 @@ TEST(ReadCase, AKeyOfTheFileWithoutEffectIsRefusedWhoeverSetTheRest) {
   EXPECT_NE(refusal(shortest, {"cell.bulk.c1_fraction=0.3"}).find("has no effect"), std::string::npos);
 }
 
+TEST(ReadCase, TheStiffeningIsThatOfFungsLawAndOneWhereItIsNotGiven) {
+  EXPECT_EQ(read(shortest, {"cell.bulk.law=fung"}).cell.bulk.stiffening, 1);
+  EXPECT_EQ(read(shortest, {"cell.bulk.law=fung", "cell.bulk.stiffening=0"}).cell.bulk.stiffening, 0);
+  EXPECT_FALSE(read(shortest).cell.bulk.stiffening);
+  EXPECT_NE(refusal(shortest, {"cell.bulk.stiffening=1"}).find("cell.bulk.law is \"neo-hookean\""), std::string::npos);
+  EXPECT_NE(refusal(shortest, {"cell.bulk.law=fung", "cell.bulk.stiffening=-0.1"}).find("outside its range 0 .. 100"),
+            std::string::npos);
+}
+
+TEST(ReadCase, TheAreaConstantIsThatOfSkalaksLawAndOneWhereItIsNotGiven) {
+  const std::string shell = "cell.cortex.modulus_mN_per_m=1", skalak = "cell.cortex.law=skalak";
+  EXPECT_EQ(read(shortest, {skalak, shell}).cell.cortex.area_constant, 1);
+  EXPECT_EQ(read(shortest, {skalak, shell, "cell.cortex.area_constant=1000"}).cell.cortex.area_constant, 1000);
+  EXPECT_NE(refusal(shortest, {"cell.cortex.law=neo-hookean", shell, "cell.cortex.area_constant=1"})
+                .find("cell.cortex.law is \"neo-hookean\""),
+            std::string::npos);
+  EXPECT_NE(refusal(shortest, {skalak, shell, "cell.cortex.area_constant=0"}).find("outside its range 0.01 .. 1000"),
+            std::string::npos);
+}
+
 TEST(ReadCase, TheFormerNameOfAKeyIsRead) {
   const std::vector<std::string> settings{"cell.bulk.law=mooney-rivlin", "cell.bulk.mooney_share=0.3"};
   EXPECT_EQ(read(shortest, settings).cell.bulk.c1_fraction, 0.3);

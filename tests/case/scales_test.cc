@@ -128,6 +128,17 @@ TEST(Scales, LinearAndNeoHookeanAreTheEndsOfMooneyRivlin) {
   EXPECT_EQ(neo_hookean_fraction(problem_of(c).bulk), 0.25);
 }
 
+TEST(Scales, TheConstantsOfFungAndSkalakAreThoseOfTheCase) {
+  Case c = paper_cell();
+  EXPECT_EQ(problem_of(c).cortex.area_constant, 1);
+  c.cell.bulk.law = BulkLaw::fung;
+  c.cell.bulk.stiffening = 0.7;
+  c.cell.cortex.law = CortexLaw::skalak;
+  c.cell.cortex.area_constant = 30;
+  EXPECT_EQ(problem_of(c).bulk.stiffening, 0.7);
+  EXPECT_EQ(problem_of(c).cortex.area_constant, 30);
+}
+
 TEST(Scales, AFunnelBecomesTheTubeWithItsMeanSpeeds) {
   // Width x height over the least of it is R^2 over its least at every place; the narrow part is the square channel's
   // tube.

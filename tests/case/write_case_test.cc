@@ -36,7 +36,13 @@ std::vector<Case> cases_of_all_laws() {
       parse_case("channel.section = \"rectangle\"\nchannel.width_um = 20\nchannel.height_um = 30\n"
                  "channel.camera_degree = 20\ncell.cortex.law = \"linear\"\ncell.cortex.modulus_mN_per_m = 1\n" +
                      common + newtonian,
-                 "rectangle")};
+                 "rectangle"),
+      parse_case("channel.width_um = 20\ncell.bulk.law = \"fung\"\ncell.bulk.stiffening = 0.7\n" + common + newtonian,
+                 "fung"),
+      parse_case("channel.width_um = 20\ncell.cortex.law = \"skalak\"\ncell.cortex.modulus_mN_per_m = 1\n"
+                 "cell.cortex.area_constant = 30.1\n" +
+                     common + newtonian,
+                 "skalak")};
 }
 
 TEST(WriteCase, WhatIsWrittenIsReadBackToTheSameBits) {
@@ -67,6 +73,18 @@ TEST(WriteCase, OnlyKeysWithAnEffectAreWritten) {
   EXPECT_FALSE(json["cell"]["bulk"].contains("c1_fraction"));
   EXPECT_EQ(json["flow"]["law"], "newtonian");
   EXPECT_EQ(json["flow"]["density_kg_per_m3"], 1000.0);
+}
+
+TEST(WriteCase, TheConstantsOfFungAndSkalakAreWrittenWithTheirLaws) {
+  const auto cases = cases_of_all_laws();
+  const auto fung = to_json(cases[cases.size() - 2]), skalak = to_json(cases.back());
+  EXPECT_EQ(fung["cell"]["bulk"]["stiffening"], 0.7);
+  EXPECT_FALSE(fung["cell"]["cortex"].contains("area_constant"));
+  EXPECT_EQ(skalak["cell"]["cortex"]["area_constant"], 30.1);
+  EXPECT_FALSE(skalak["cell"]["bulk"].contains("stiffening"));
+  const std::vector<std::string> other{"cell.bulk.stiffening=0.71"};
+  EXPECT_NE(case_hash(parse_case(to_toml(cases[cases.size() - 2]), "other", other)),
+            case_hash(cases[cases.size() - 2]));
 }
 
 TEST(WriteCase, TheHashSeesEveryValueAndNothingElse) {

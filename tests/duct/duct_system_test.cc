@@ -70,6 +70,12 @@ TEST(DuctSystem, TheTaylorRemainderOfTheTangentHasSlopeTwo) {
   }
 }
 
+TEST(DuctSystem, TheTangentOfASolidThatStiffensIsExactToo) {
+  SmallDuct duct({});
+  const Media law{.bulk = {.law = BulkLaw::fung, .stiffening = 2}};
+  EXPECT_NEAR(taylor_slope(duct.system, law, deformed_state(duct.system, law)), 2, 0.05);
+}
+
 TEST(DuctSystem, LineariseReturnsTheResidual) {
   SmallDuct duct({});
   const Media law = media({});

@@ -23,6 +23,7 @@ const std::vector<Cell> cells = {
     {{{}, {BulkLaw::linear, 12}}},
     {{{}, {BulkLaw::neo_hookean, 12}}},
     {{{}, {BulkLaw::mooney_rivlin, 12, 0.4}}},
+    {{{}, {.law = BulkLaw::fung, .shear_modulus = 12, .stiffening = 0.8}}},
     {{{LiquidLaw::newtonian, 1, 0, 0.5}, {BulkLaw::neo_hookean, 12}}},
     {{{LiquidLaw::power_law, 0.6, 0.1, 0}, {BulkLaw::linear, 12}}},
     {{{LiquidLaw::power_law, 0.6, 0.1, 0.5}, {BulkLaw::mooney_rivlin, 12, 0.4}}},
@@ -36,6 +37,7 @@ const std::vector<Cell> cells = {
      Interior::liquid},
     {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 0, 0}}, Interior::liquid},
     {{{}, {BulkLaw::mooney_rivlin, 12, 0.4, 0, 0, 0, 1.2, 3}, {CortexLaw::neo_hookean, 8, 0.8, 0, 1.2}}},
+    {{{}, {BulkLaw::neo_hookean, 12}, {.law = CortexLaw::skalak, .modulus = 8, .tension = 0.8, .area_constant = 5}}},
     {{{}, {BulkLaw::neo_hookean, 0}, {CortexLaw::neo_hookean_reference, 20, 1, 0, 1.2, 3}}, Interior::liquid}};
 
 VectorXd residual(StationarySystem& system, const Media& law, const VectorXd& state) {

@@ -14,9 +14,12 @@ using test::states;
 // Some dozen operations on stresses of order ten.
 constexpr double rounding = 1e-12;
 constexpr double mu = 1.7;
-// linear (Euler-Almansi), neo-Hookean, and Mooney-Rivlin between them.
+
+constexpr Bulk fung(double stiffening) { return {.law = BulkLaw::fung, .shear_modulus = mu, .stiffening = stiffening}; }
+
+// linear (Euler-Almansi), neo-Hookean, Mooney-Rivlin between them, and Fung's exponential of the neo-Hookean energy.
 constexpr std::array laws = {Bulk{BulkLaw::linear, mu}, Bulk{BulkLaw::neo_hookean, mu},
-                             Bulk{BulkLaw::mooney_rivlin, mu, 0.3}};
+                             Bulk{BulkLaw::mooney_rivlin, mu, 0.3}, fung(0.6), fung(1)};
 
 const Tensor<double> I = Tensor<double>::Identity();
 
@@ -91,6 +94,7 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsThatOfMooneyAndRivlin) {
   // At det F = 1 the stress is mu [a (B - I) + (1 - a)(I - B^-1)] but for a multiple of I.
   RandomStates random;
   for (const Bulk& bulk : laws) {
+    if (bulk.law == BulkLaw::fung) continue;
     const double a = neo_hookean_fraction(bulk);
     for (int i = 0; i < states; ++i) {
       const Tensor<double> F = random.isochoric(), B = F * F.transpose();
@@ -100,9 +104,18 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsThatOfMooneyAndRivlin) {
   }
 }
 
-/// Strain energy per volume of isochoric deformations: mu/2 [a (tr B - 3) + (1-a)(tr B^-1 - 3)].
+/// mu/(2 b) (exp(b (I1 - 3)) - 1).
+template <class T>
+T fung_energy(const Bulk& bulk, const T& I1) {
+  const double b = bulk.stiffening;
+  using std::exp;
+  return (exp((I1 - T(3)) * T(b)) - T(1)) * T(mu / (2 * b));
+}
+
+/// Strain energy per volume of isochoric deformations: mu/2 [a (tr B - 3) + (1-a)(tr B^-1 - 3)], or that of Fung.
 template <class T>
 T strain_energy(const Bulk& bulk, const Tensor<T>& F) {
+  if (bulk.law == BulkLaw::fung) return fung_energy(bulk, F.squaredNorm());
   const double a = neo_hookean_fraction(bulk);
   return (F.squaredNorm() - T(3)) * T(0.5 * mu * a) + (inverse(F).squaredNorm() - T(3)) * T(0.5 * mu * (1 - a));
 }
@@ -119,13 +132,15 @@ TEST(Bulk, TheStressOfAnIsochoricDeformationIsTheDerivativeOfTheStrainEnergy) {
   }
 }
 
-/// mu/2 [a I1 + (1 - a) I2] - mu (2 - a) ln J, I2 = (I1^2 - B : B) / 2: the polyconvex energy off J = 1.
+/// mu/2 [a I1 + (1 - a) I2] - mu (2 - a) ln J, I2 = (I1^2 - B : B) / 2: the polyconvex energy off J = 1. That of Fung
+/// is an increasing convex function of I1, less mu ln J.
 template <class T>
 T polyconvex_energy(const Bulk& bulk, const Tensor<T>& F) {
   const double a = neo_hookean_fraction(bulk);
   const Tensor<T> B = F * F.transpose();
   const T I1 = B.trace(), I2 = (I1 * I1 - B.squaredNorm()) * T(0.5);
   using std::log;
+  if (bulk.law == BulkLaw::fung) return fung_energy(bulk, I1) - log(determinant(F)) * T(mu);
   return (I1 * T(a) + I2 * T(1 - a)) * T(0.5 * mu) - log(determinant(F)) * T(mu * (2 - a));
 }
 
@@ -164,16 +179,38 @@ TEST(Bulk, AllLawsAgreeForSmallStrains) {
 }
 
 TEST(Bulk, UniaxialTensionHasTheTextbookStress) {
-  // sigma_x - sigma_r = mu [a (l^2 - 1/l) + (1 - a)(l - 1/l^2)] at stretch l, traction-free sides; slope E = 3 mu.
+  // sigma_x - sigma_r = mu [a (l^2 - 1/l) + (1 - a)(l - 1/l^2)] at stretch l, traction-free sides; slope E = 3 mu. With
+  // Fung's law mu exp(b (l^2 + 2/l - 3)) (l^2 - 1/l).
   for (const Bulk& bulk : laws) {
     const double a = neo_hookean_fraction(bulk);
     for (const double l : {0.5, 0.9, 1.1, 2.0}) {
       const Tensor<double> F = test::diagonal(l, 1 / std::sqrt(l), 1 / std::sqrt(l));
       const Tensor<double> tau = elastic_stress(bulk, F);
-      const double expected = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
-      EXPECT_NEAR(tau(0, 0) - tau(1, 1), expected, rounding);
+      const double factor = bulk.law == BulkLaw::fung ? std::exp(bulk.stiffening * (l * l + 2 / l - 3)) : 1;
+      const double expected = mu * factor * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
+      EXPECT_NEAR(tau(0, 0) - tau(1, 1), expected, rounding * std::max(1.0, std::abs(expected)));
       EXPECT_NEAR(tau(1, 1), tau(2, 2), rounding);
     }
+  }
+}
+
+TEST(Fung, AStretchOfAThirdHasTheStressOfAHandCalculation) {
+  // b = 1, l = 1.3: (1.69 - 0.769231) exp(0.228462) = 1.15710, known to its digits; neo-Hookean 0.92077.
+  const Tensor<double> F = test::diagonal(1.3, 1 / std::sqrt(1.3), 1 / std::sqrt(1.3));
+  const Tensor<double> tau = elastic_stress(fung(1), F), neo_hookean = elastic_stress(fung(0), F);
+  EXPECT_NEAR((tau(0, 0) - tau(1, 1)) / mu, 1.15710, 5e-6);
+  EXPECT_NEAR((neo_hookean(0, 0) - neo_hookean(1, 1)) / mu, 0.92077, 5e-6);
+}
+
+TEST(Fung, WithoutStiffeningItIsNeoHookean) {
+  // And tends to it: the stresses differ by mu b (I1 - 3) B, with I1 - 3 and B of order one.
+  RandomStates random;
+  for (int i = 0; i < states; ++i) {
+    const Tensor<double> F = random.deformation_gradient();
+    const Tensor<double> neo_hookean = elastic_stress(Bulk{BulkLaw::neo_hookean, mu}, F);
+    EXPECT_LT((elastic_stress(fung(0), F) - neo_hookean).norm(), rounding);
+    const double small = 1e-6;
+    EXPECT_LT((elastic_stress(fung(small), F) - neo_hookean).norm(), small * 20 * mu);
   }
 }
 

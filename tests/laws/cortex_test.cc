@@ -33,6 +33,49 @@ TEST(Cortex, AllLawsAgreeToFirstOrder) {
   }
 }
 
+Cortex skalak(double area_constant) {
+  return {.law = CortexLaw::skalak, .modulus = E2D, .area_constant = area_constant};
+}
+
+constexpr std::array area_constants = {0.01, 0.3, 1.0, 10.0, 1000.0};
+
+TEST(SkalakCortex, ItHasTheSurfaceModulusAndThePoissonsRatioOfItsConstant) {
+  // T1 = E2D / (1 - nu^2) (e1 + nu e2) with nu = C / (1 + C), by exact derivatives at rest.
+  for (const double C : area_constants) {
+    const auto one = Dual<double, 2>(1, 0), other = Dual<double, 2>(1, 1);
+    const auto T = principal_tensions(skalak(C), one, other);
+    const double nu = C / (1 + C), along = T[0].slope(0), across = T[0].slope(1);
+    EXPECT_NEAR(across / along, nu, rounding);
+    EXPECT_NEAR(along * (1 - across / along * across / along) / E2D, 1, rounding * (1 + C));
+  }
+}
+
+TEST(SkalakCortex, TheTensionsAreThoseOfTheTextbookForEveryConstant) {
+  // T1 = G / J [l1^2 (l1^2 - 1) + C J^2 (J^2 - 1)], and they are the derivatives of the energy per reference area.
+  RandomStates random;
+  for (const double C : area_constants) {
+    const double G = E2D * (1 + C) / (2 * (1 + 2 * C));
+    for (int i = 0; i < states; ++i) {
+      const double a = random.number(0.6, 1.6), b = random.number(0.6, 1.6), J = a * b;
+      const double expected = G / J * (a * a * (a * a - 1) + C * J * J * (J * J - 1));
+      EXPECT_NEAR(principal_tensions<double>(skalak(C), a, b)[0], expected, rounding * E2D * 100 * (1 + C));
+    }
+    const auto tensions = [&](const auto& l) { return principal_tensions(skalak(C), l[0], l[1]); };
+    EXPECT_LT((derivative_error<2>(tensions, {1.2, 0.8})), test::derivative_tolerance);
+  }
+}
+
+TEST(SkalakCortex, WithTheConstantOneItIsTheLawThatHadNone) {
+  // E2D / 12 [I1^2 + 2 I1 - 2 I2 + I2^2] per reference area, to 1e-14 of the greatest term.
+  RandomStates random;
+  for (int i = 0; i < states; ++i) {
+    const double a = random.number(0.6, 1.6), b = random.number(0.6, 1.6), J = a * b;
+    const double I1 = a * a + b * b - 2, I2 = J * J - 1;
+    const double former = E2D / 12 * (I1 * I1 + 2 * (I1 - I2) + I2 * I2) / J;
+    EXPECT_NEAR(shell_energy({CortexLaw::skalak, E2D}, a, b), former, 1e-14 * (1 + former));
+  }
+}
+
 TEST(Cortex, TheTensionsAreThoseOfTheirSources) {
   // Mokbel et al. 2017, eq. 19 (linear) and eqs. 8, 17 (neo-hookean); the membrane laws of the textbooks.
   RandomStates random;

@@ -35,6 +35,7 @@ TEST(Dual, EveryOperationHasItsDerivative) {
     expect_slopes([&](const auto& v) { return s - s * v[1] / 4.0; }, x, y, s - s * y / 4, 0, -s / 4);
     expect_slopes([&](const auto& v) { return s + s / v[1]; }, x, y, s + s / y, 0, -s / (y * y));
     expect_slopes([](const auto& v) { return sqrt(v[0]); }, x, y, std::sqrt(x), 0.5 / std::sqrt(x), 0);
+    expect_slopes([](const auto& v) { return exp(v[1]); }, x, y, std::exp(y), 0, std::exp(y));
     expect_slopes([](const auto& v) { return log(v[1]); }, x, y, std::log(y), 0, 1 / y);
     expect_slopes([](const auto& v) { return pow(v[0], -0.4); }, x, y, std::pow(x, -0.4), -0.4 * std::pow(x, -1.4), 0);
     expect_slopes([](const auto& v) { return atan2(v[1], v[0]); }, x, y, std::atan2(y, x), -y / r2, x / r2);
@@ -51,6 +52,15 @@ TEST(Dual, DualNumbersOfDualNumbersHaveSecondDerivatives) {
   EXPECT_NEAR(slopes[0].slope(1), 2 * x, rounding);
   EXPECT_NEAR(slopes[1].slope(0), 2 * x, rounding);
   EXPECT_NEAR(slopes[1].slope(1), 0, rounding);
+}
+
+TEST(Dual, TheExponentialOfDualNumbersHasSecondDerivatives) {
+  // f = exp(x y): f_xx = y^2 f, f_xy = (1 + x y) f.
+  const auto f = [](const auto& v) { return exp(v[0] * v[1]); };
+  const double x = 1.3, y = 0.7;
+  const auto slopes = value_and_slopes(f, independent(std::array{x, y})).second;
+  EXPECT_NEAR(slopes[0].slope(0), y * y * std::exp(x * y), rounding);
+  EXPECT_NEAR(slopes[0].slope(1), (1 + x * y) * std::exp(x * y), rounding);
 }
 
 TEST(Dual, EachOfManyDerivativesIsItsOwn) {

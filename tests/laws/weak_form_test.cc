@@ -23,7 +23,8 @@ const std::array liquids = {Liquid{}, Liquid{LiquidLaw::newtonian, 1, 0, 0.8},
                             Liquid{LiquidLaw::power_law, 0.6, 0.1, 0}, Liquid{LiquidLaw::power_law, 0.6, 0.1, 0.8},
                             Liquid{LiquidLaw::carreau, 0.5, 0, 0.8, 3, 0.2, 2, 1.5}};
 constexpr std::array bulks = {Bulk{BulkLaw::linear, 12}, Bulk{BulkLaw::neo_hookean, 12},
-                              Bulk{BulkLaw::mooney_rivlin, 12, 0.4}};
+                              Bulk{BulkLaw::mooney_rivlin, 12, 0.4},
+                              Bulk{.law = BulkLaw::fung, .shear_modulus = 12, .stiffening = 0.8}};
 
 template <class T>
 using Liquid2 = LiquidFields<T, 2>;
@@ -125,7 +126,8 @@ TEST(CellPoint, TheFluxIsTheDerivativeOfTheStrainEnergyOfAnIsochoricState) {
       const auto flux = CellPoint<2>{bulk, X}(Cell2<double>{{G, s * X.r}, random.number(-1, 1)});
       const double work = dot(flux.slope, slope) - 0.5 * (flux.value(1) * s * X.r);
       const double a = neo_hookean_fraction(bulk), mu = bulk.shear_modulus;
-      const double tension = mu * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
+      const double factor = bulk.law == BulkLaw::fung ? std::exp(bulk.stiffening * (l * l + 2 / l - 3)) : 1;
+      const double tension = mu * factor * (a * (l * l - 1 / l) + (1 - a) * (l - 1 / (l * l)));
       EXPECT_NEAR(work, tension * X.volume(), 10 * rounding);
     }
   }

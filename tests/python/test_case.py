@@ -49,6 +49,14 @@ def test_a_law_brings_its_keys_and_takes_them_away(paper):
     assert (case.flow.exponent, case.flow.viscosity_mPas) == (None, 10)
 
 
+def test_the_constants_of_fung_and_skalak_come_with_their_laws(paper):
+    case = Case(paper).replace(cell__bulk__law="fung", cell__bulk__stiffening=0.5)
+    assert case.cell.bulk.stiffening == 0.5 and Case(case.to_dict()) == case
+    assert case.replace(cell__bulk__stiffening=0.6).hash != case.hash
+    shell = Case(paper).replace(cell__cortex__law="skalak", cell__cortex__modulus_mN_per_m=1)
+    assert (shell.cell.cortex.area_constant, shell.cell.bulk.stiffening) == (1, None)
+
+
 def test_a_key_in_time_makes_the_case_one_in_time(paper):
     case = Case(paper).replace(time__end_us=100, cell__viscosity_mPas=15)
     assert case.time.scheme == "monolithic"

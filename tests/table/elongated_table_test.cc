@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../refusal.h"
 #include "case/user_error.h"
 #include "invented_elongated.h"
 
@@ -113,6 +114,13 @@ TEST(TableSpecOfElongatedCells, WantsSolidsInTheSquareAndZeroAmongTheRatios) {
   EXPECT_THROW(spec_with("axial_ratio = [0.1, 0.2, 0.3, 0.4]"), UserError);
   EXPECT_THROW(spec_with("axial_ratio = [0, 0.3]"), UserError);
   EXPECT_THROW(spec_with("axial_ratio = [-0.1, 0, 0.1, 0.3]", "tube"), UserError);
+}
+
+TEST(TableSpecOfElongatedCells, WantsALawWhoseElongationIsThatOfItsTension) {
+  const std::string spec = to_toml(spec_with("axial_ratio = [-0.1, 0, 0.1, 0.3]"));
+  const std::vector<std::string> fung{"cell.bulk.law=fung"};
+  EXPECT_NE(test::refusal_of([&] { parse_table_spec(spec, "spec.toml", fung); }).find("choose another law"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -70,6 +70,19 @@ TEST(TableSpec, TheTextOfASpecGivesBackTheSameSpec) {
   EXPECT_NE(spec_hash(read(short_spec)), spec_hash(read(short_spec, {"table.radii=99"})));
 }
 
+TEST(TableSpec, TheConstantsOfFungAndSkalakAreKept) {
+  const std::vector<std::string> settings{"cell.bulk.law=fung", "cell.bulk.stiffening=0.7", "cell.cortex.law=skalak",
+                                          "cell.cortex.area_constant=30", "table.cortex_fraction=[0, 0.5, 1]"};
+  const auto spec = read(short_spec, settings), again = read(to_toml(spec));
+  EXPECT_EQ(again.base.cell.bulk.stiffening, 0.7);
+  EXPECT_EQ(again.base.cell.cortex.area_constant, 30);
+  EXPECT_EQ(spec_hash(again), spec_hash(spec));
+  EXPECT_EQ(case_at(spec, {5, 0.5}, 2).cell.bulk.stiffening, 0.7);
+  auto other = settings;
+  other[1] = "cell.bulk.stiffening=0.8";
+  EXPECT_NE(spec_hash(read(short_spec, other)), spec_hash(spec));
+}
+
 TEST(TableSpec, TheTextOfASpecHoldsWhatSquareChannelsNeed) {
   const std::vector<std::string> settings{"channel.section=square", "table.max_area_um2=260", "table.computed_radii=9",
                                           "table.computed_states=5", "table.tube_table=LE-2D-26"};
