@@ -11,7 +11,8 @@ Case in_channel(const LaboratoryCell& cell, double accuracy) {
   c.channel.radius_um = tube_radius_um;
   c.flow.rate_ul_per_s = 0.04;
   c.cell.radius_um = cell.radius_um;
-  c.cell.bulk = {.law = cell.law, .young_modulus_kPa = cell.young_modulus_kPa};
+  c.cell.bulk.law = cell.law;
+  c.cell.bulk.young_modulus_kPa = cell.young_modulus_kPa;
   c.numerics.accuracy = accuracy;
   return c;
 }
