@@ -158,11 +158,7 @@ void Discretisation::move_nodes(const VectorXd& outward) {
 void Discretisation::set_points(const std::vector<Point>& points) {
   points_ = straight_points_ = points;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    if (!elements_[e].liquid) continue;
-    std::vector<PointMap<double, 2>> maps = undeformed_maps(int(e));
-    // Dets are told relative to those round the undeformed cell, which these are not.
-    for (std::size_t q = 0; q < maps.size(); ++q) maps[q].det = elements_[e].undeformed[q].det;
-    elements_[e].undeformed = std::move(maps);
+    if (elements_[e].liquid) replace_maps(elements_[e].undeformed, undeformed_maps(int(e)));
   }
 }
 

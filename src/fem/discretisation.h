@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "case/problem.h"
@@ -61,6 +62,14 @@ struct ElementUnknowns {
   /// An element of a liquid interior: nothing to integrate.
   bool is_empty() const { return columns.empty(); }
 };
+
+/// Maps that take the place of those round the undeformed cell, to whose dets those of a deformed mesh are still
+/// relative (min_relative_det).
+template <int dim>
+void replace_maps(std::vector<PointMap<double, dim>>& undeformed, std::vector<PointMap<double, dim>> others) {
+  for (std::size_t q = 0; q < others.size(); ++q) others[q].det = undeformed[q].det;
+  undeformed = std::move(others);
+}
 
 /// An edge of the mesh on the cell's surface, the inlet or the outlet.
 struct BoundaryEdge {

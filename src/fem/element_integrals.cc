@@ -22,6 +22,17 @@ VectorXd local_values(const ElementUnknowns& element, const VectorXd& unknowns) 
   return local;
 }
 
+MatrixXd points_of_nodes(const Discretisation& space, int e, const VectorXd& unknowns) {
+  const ElementUnknowns& element = space.elements()[e];
+  const auto& nodes = space.nodes().of_element[e];
+  const int m = element.position_columns;
+  MatrixXd points(nodes.size(), 2);
+  for (int k = 0; k < points.rows(); ++k) points.row(k) = space.node_points()[nodes[k]].transpose();
+  const VectorXd local = local_values(element, unknowns);
+  for (int c = 0; c < 2 && m > 0; ++c) points.col(c) += element.position->at_nodes[c] * local.segment(c * m, m);
+  return points;
+}
+
 namespace {
 
 ElementQuadrature<2> quadrature_of(const Discretisation& space, int e) {

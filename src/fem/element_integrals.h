@@ -21,6 +21,9 @@ enum class Want { residual, residual_and_tangent };
 /// Local values of the element's column slots.
 VectorXd local_values(const ElementUnknowns&, const VectorXd& unknowns);
 
+/// Where the nodes of an element are now: nodes x (x, r).
+MatrixXd points_of_nodes(const Discretisation&, int element, const VectorXd& unknowns);
+
 /// Fields of a state at the quadrature points of an element: LiquidFields or CellFields as the element is, or the
 /// MapFields that both begin with.
 template <class Fields>

@@ -19,18 +19,6 @@ constexpr double longest = 0.6, most_turned = 0.7, widest = 0.6;
 /// By how much their length may grow along themselves.
 constexpr double growth = 0.4;
 
-/// Where an element's nodes are now.
-MatrixXd places_of(const Discretisation& space, int e, const VectorXd& unknowns) {
-  const ElementUnknowns& element = space.elements()[e];
-  const auto& nodes = space.nodes().of_element[e];
-  const int m = element.position_columns;
-  MatrixXd places(nodes.size(), 2);
-  for (int k = 0; k < places.rows(); ++k) places.row(k) = space.node_points()[nodes[k]].transpose();
-  const VectorXd local = local_values(element, unknowns);
-  for (int c = 0; c < 2 && m > 0; ++c) places.col(c) += element.position->at_nodes[c] * local.segment(c * m, m);
-  return places;
-}
-
 /// Nodes of the channel's ends stay, those on the axis and at the wall slide.
 LiquidMesh<2> liquid_mesh(const Discretisation& space, const VectorXd& unknowns, const ReferenceElement<2>& reference) {
   const ChannelMesh& mesh = space.mesh();
@@ -42,7 +30,7 @@ LiquidMesh<2> liquid_mesh(const Discretisation& space, const VectorXd& unknowns,
     MatrixXd rest(n * n, 2);
     for (int k = 0; k < n * n; ++k)
       rest.row(k) = mesh.elements()[e].map(mesh.geometry(), s(k % n), s(k / n)).transpose();
-    elements.push_back({e, places_of(space, e, unknowns), std::move(rest)});
+    elements.push_back({e, points_of_nodes(space, e, unknowns), std::move(rest)});
   }
   LiquidMesh<2> liquid(space.reference(), reference, mesh.number_nodes(reference.degree()), std::move(elements));
   using Component = LiquidMesh<2>::Component;
@@ -56,10 +44,6 @@ LiquidMesh<2> liquid_mesh(const Discretisation& space, const VectorXd& unknowns,
 ReferenceElement<2> fitted_reference(const Discretisation& space) {
   return ReferenceElement<2>(std::min(space.reference().degree(), max_degree));
 }
-
-}  // namespace
-
-namespace {
 
 /// How long an element may be at places on top, from 0 to 1, as a part of it.
 struct ElementSizes {

@@ -8,21 +8,6 @@
 
 namespace rheocyte {
 
-/// The values at other nodes of functions on an element, one per column; `table` is that of one direction.
-template <int dim>
-MatrixXd at_other_nodes(const MatrixXd& table, const MatrixXd& nodal) {
-  if constexpr (dim == 3) {
-    return apply_in_each_direction(table, nodal);
-  } else {
-    MatrixXd result(table.rows() * table.rows(), nodal.cols());
-    for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
-      const MatrixXd values = table * nodal.col(c).reshaped(table.cols(), table.cols()) * table.transpose();
-      result.col(c) = values.reshaped();
-    }
-    return result;
-  }
-}
-
 /// An element of the liquid: its number, and places of its nodes, in rows.
 struct LiquidElement {
   int number;

@@ -28,10 +28,7 @@ double shear_rate(const Tensor<double>& L) { return (L + L.transpose()).norm() /
 }  // namespace
 
 VectorXd NodalFields::at_nodes(const VectorXd& at_points) const {
-  if (dim_ == 3) return apply_in_each_direction(to_nodes_, at_points);
-  const Eigen::Index m = to_nodes_.cols();
-  const MatrixXd nodal = to_nodes_ * at_points.reshaped(m, m) * to_nodes_.transpose();
-  return nodal.reshaped();
+  return dim_ == 3 ? at_other_nodes<3>(to_nodes_, at_points) : at_other_nodes<2>(to_nodes_, at_points);
 }
 
 void NodalFields::add_liquid_stress(const std::vector<Tensor<double>>& gradients, MatrixXd& fields) const {

@@ -10,6 +10,21 @@ namespace rheocyte {
 /// Applies a table (out x in) in each of the three directions to functions, one per column.
 MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& functions);
 
+/// The values at other nodes of functions on an element, one per column; `table` is that of one direction.
+template <int dim>
+MatrixXd at_other_nodes(const MatrixXd& table, const MatrixXd& nodal) {
+  if constexpr (dim == 3) {
+    return apply_in_each_direction(table, nodal);
+  } else {
+    MatrixXd result(table.rows() * table.rows(), nodal.cols());
+    for (Eigen::Index c = 0; c < nodal.cols(); ++c) {
+      const MatrixXd values = table * nodal.col(c).reshaped(table.cols(), table.cols()) * table.transpose();
+      result.col(c) = values.reshaped();
+    }
+    return result;
+  }
+}
+
 /// The shape functions of a hexahedron, applied direction by direction. Numbers at points and nodes have the first
 /// direction fastest; part 0 is the value, part k the derivative with respect to xi_k.
 class TensorElement {

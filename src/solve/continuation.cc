@@ -122,9 +122,6 @@ double limited_step(const Path& path, double parameter, double h) {
   return h > 0.7 * remaining ? 0.5 * remaining : h;
 }
 
-/// Of BranchState::aim.
-constexpr double max_aim = 0.01, min_aim = 1e-4;
-
 /// Whether Newton found a state, near its prediction.
 Status judge(const NewtonReport& newton, const NonlinearSystem& system, const VectorXd& guess, const VectorXd& found,
              const ContinuationOptions& options) {

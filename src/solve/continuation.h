@@ -8,6 +8,9 @@
 
 namespace rheocyte {
 
+/// First corrections of Newton's method, in the cell's radius, that steps aim at.
+inline constexpr double max_aim = 0.01, min_aim = 1e-4;
+
 /// A converged state on the branch.
 struct BranchState {
   double parameter = 0;  ///< of the path: the compliance, or the fraction of the way between two problems
@@ -15,8 +18,8 @@ struct BranchState {
   VectorXd tangent;  ///< d(unknowns)/d(parameter); may be empty where a branch is entered
   int newton_iterations = 0;
   /// With which a branch goes on from here: the step of the parameter, 0 if it is not known, and the first correction
-  /// of Newton's method, in the cell's radius, that steps aim at: less after one that failed.
-  double step = 0, aim = 0.01;
+  /// that steps aim at, less after one that failed.
+  double step = 0, aim = max_aim;
 };
 
 struct ContinuationOptions {

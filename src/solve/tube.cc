@@ -50,14 +50,8 @@ MatrixXd squared_shear_rates(const std::vector<LiquidFields<double, 2>>& fields,
 
 /// Axial coordinates of the element's nodes, arranged alike.
 MatrixXd axial_coordinates(const StateView& state, int e) {
-  const ElementUnknowns& element = state.space.elements()[e];
-  const auto& nodes = state.space.nodes().of_element[e];
-  VectorXd x(nodes.size());
-  for (int k = 0; k < x.size(); ++k) x(k) = state.space.node_points()[nodes[k]](0);
-  if (const int columns = element.position_columns; columns > 0)
-    x += element.position->at_nodes[0] * local_values(element, state.unknowns).head(columns);
   const Eigen::Index n = state.space.reference().nodes_1d.size();
-  return x.reshaped(n, n);
+  return points_of_nodes(state.space, e, state.unknowns).col(0).reshaped(n, n);
 }
 
 /// The greatest value on a grid, and between its points: near it values go along parabolas in both directions. Zeros do
