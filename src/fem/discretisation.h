@@ -101,6 +101,7 @@ class Discretisation {
 
   int unknowns() const { return unknowns_; }
   int cell_velocity() const { return cell_velocity_; }
+  bool is_motion(int unknown) const { return unknown == cell_velocity_; }
   /// Pressure of a liquid interior, above that of the sphere at rest; -1 in an elastic one.
   int inner_pressure() const { return inner_pressure_; }
   /// Unknown of component c (0: x, 1: r) of a node's displacement, -1 if fixed or not in the cell.

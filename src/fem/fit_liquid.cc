@@ -15,7 +15,7 @@ constexpr int max_degree = 6;
 constexpr double same_line = 1e-10;
 /// Elements on top are at most so long (in the cell's radius), turn by at most so much, and take at most so much of the
 /// undeformed top (both in radians).
-constexpr double longest = 0.6, most_turned = 0.7, widest = 0.6;
+constexpr double longest = 0.6, most_turned = 0.5, widest = 0.6;
 /// By how much their length may grow along themselves.
 constexpr double growth = 0.4;
 
@@ -73,22 +73,48 @@ ElementSizes wanted_sizes(const Discretisation& space, const VectorXd& unknowns)
   return sizes;
 }
 
+/// How many elements are requested from the front end of the top to places on it.
+class RequestedElements {
+ public:
+  RequestedElements(const Discretisation& space, const VectorXd& unknowns) {
+    const auto [place, size] = wanted_sizes(space, unknowns);
+    place_ = place;
+    for (std::size_t i = 1; i < place.size(); ++i)
+      number_.push_back(number_.back() + (place[i] - place[i - 1]) * (1 / size[i] + 1 / size[i - 1]) / 2);
+  }
+
+  double all() const { return number_.back(); }
+  double up_to(double place) const { return at(place_, number_, place); }
+  double place_of(double number) const { return at(number_, place_, number); }
+
+ private:
+  static double at(const std::vector<double>& x, const std::vector<double>& y, double value) {
+    const auto above = std::size_t(std::ranges::lower_bound(x, value) - x.begin());
+    const std::size_t i = std::clamp<std::size_t>(above, 1, x.size() - 1);
+    return std::lerp(y[i - 1], y[i], (value - x[i - 1]) / (x[i] - x[i - 1]));
+  }
+
+  std::vector<double> place_, number_{0};
+};
+
 }  // namespace
 
-SurfaceBreaks fitted_breaks(const Discretisation& space, const VectorXd& unknowns) {
-  const auto [place, size] = wanted_sizes(space, unknowns);
-  std::vector<double> elements{0};  // up to a place
-  for (std::size_t i = 1; i < place.size(); ++i)
-    elements.push_back(elements.back() + (place[i] - place[i - 1]) * (1 / size[i] + 1 / size[i - 1]) / 2);
+SurfaceBreaks fitted_breaks(const Discretisation& space, const VectorXd& unknowns, double evenly) {
+  const RequestedElements requested(space, unknowns);
   SurfaceBreaks breaks = space.mesh().breaks();
   const std::size_t n = breaks.top.size() - 1;
-  for (std::size_t k = 1; k < n; ++k) {
-    const double before = elements.back() * double(k) / double(n);
-    const std::size_t i = std::size_t(std::ranges::lower_bound(elements, before) - elements.begin());
-    const double part = (before - elements[i - 1]) / (elements[i] - elements[i - 1]);
-    breaks.top[k] = std::lerp(place[i - 1], place[i], part);
-  }
+  for (std::size_t k = 1; k < n; ++k)
+    breaks.top[k] = std::lerp(breaks.top[k], requested.place_of(requested.all() * double(k) / double(n)), evenly);
   return breaks;
+}
+
+double surface_evenness(const Discretisation& space, const VectorXd& unknowns) {
+  const RequestedElements requested(space, unknowns);
+  const std::vector<double>& top = space.mesh().breaks().top;
+  double most = 0;
+  for (std::size_t k = 1; k < top.size(); ++k)
+    most = std::max(most, requested.up_to(top[k]) - requested.up_to(top[k - 1]));
+  return requested.all() / double(top.size() - 1) / most;
 }
 
 double liquid_mesh_quality(const Discretisation& space, const VectorXd& unknowns) {

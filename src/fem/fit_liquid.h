@@ -4,9 +4,12 @@
 
 namespace rheocyte {
 
-/// Between elements on top that are even on the deformed cell: by their length, and by the angle that the surface turns
-/// along them.
-SurfaceBreaks fitted_breaks(const Discretisation&, const VectorXd& unknowns);
+/// Between elements on top: `evenly` = 0 as they are, 1 even on the deformed cell, by their length and by the angle
+/// that the surface turns along them.
+SurfaceBreaks fitted_breaks(const Discretisation&, const VectorXd& unknowns, double evenly = 1);
+
+/// How even they are: 1 over the number of even elements that the most loaded one stands for.
+double surface_evenness(const Discretisation&, const VectorXd& unknowns);
 
 /// How little the liquid's mesh is distorted from that round the undeformed cell: 1 not at all, 0 folded.
 double liquid_mesh_quality(const Discretisation&, const VectorXd& unknowns);

@@ -37,7 +37,10 @@ Status ResolvedBranch::climb(ResolvedState& state, Ladder& ladder) {
     Ladder before{geometry_.errors};  // a new mesh at a lower degree need not be better at once
     if (!same_mesh && !rungs.goes_on) std::swap(ladder, before);
     const Status status = climb_on(rungs, state, ladder);
-    if (ladder.rungs.empty()) std::swap(ladder, before);
+    if (!before.rungs.empty() && !(ladder.estimated_error <= before.estimated_error)) {
+      std::swap(ladder, before);
+      state = ladder.rungs.back();
+    }
     if (status == Status::converged || status == Status::stopped) return status;
     if (status == Status::surface_unstable || geometry_.rungs.size() == 1) reason = status;
   }

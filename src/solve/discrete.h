@@ -40,10 +40,12 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
 
   /// The same fields in the unknowns of this resolution, from another one of the same geometry.
   virtual VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const = 0;
-  /// At the same resolution with a mesh of the liquid that fits round the cell of a state, on the same elements or on
-  /// such as are even on its surface; nothing if that is hardly better than this one.
-  enum class Elements { same, even };
-  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, Elements) const;
+  /// The same, with the liquid's fields at the same places in space if the meshes round the same cell differ.
+  virtual VectorXd carry_from(const Discrete& other, const VectorXd& unknowns) const = 0;
+  /// At the same resolution with a mesh of the liquid that fits round the cell of a state. Elements on the surface are
+  /// those of this one (`evenly` = 0), or are moved that part of the way to where they are even. Nothing if that is
+  /// hardly better than this one.
+  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, double evenly) const;
   /// At this resolution with a mesh that follows the cell as that of another one of the same kind of geometry; nothing
   /// if that has not been fitted.
   std::shared_ptr<Discrete> fitted_as(const Discrete& other) const;
@@ -57,9 +59,12 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   bool is_fitted() const { return is_fitted_; }
   /// Of the liquid's mesh: 1 where it is not distorted, 0 where it folds.
   virtual double mesh_quality(const VectorXd& unknowns) const = 0;
-  /// Of the same problem at the same resolution with a mesh as that of another one; with elements, if that can be, that
-  /// are even on the surface of a state of it.
-  virtual std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const = 0;
+  /// Of the elements on the surface: 1 where they are even, or cannot be cut again.
+  virtual double surface_evenness(const VectorXd& /*unknowns*/) const { return 1; }
+  /// Of the same problem at the same resolution with a mesh as that of another one.
+  virtual std::shared_ptr<Discrete> made_as(const Discrete& other) const = 0;
+  /// With elements on the surface that are cut again (`fitted`); nothing if they cannot be.
+  virtual std::shared_ptr<Discrete> cut_again(const VectorXd& /*unknowns*/, double /*evenly*/) const { return nullptr; }
   /// Moves the liquid's nodes so that the mesh fits round the cell of a state.
   virtual void fit(const VectorXd& unknowns) = 0;
 

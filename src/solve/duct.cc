@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "case/scales.h"
+#include "duct/duct_integrals.h"
 #include "duct/fit_duct.h"
+#include "fem/carry_liquid.h"
 
 namespace rheocyte {
 namespace {
@@ -99,8 +101,7 @@ void DuctDiscrete::move_to(const Problem& problem) {
 
 double DuctDiscrete::mesh_quality(const VectorXd& unknowns) const { return liquid_mesh_quality(space(), unknowns); }
 
-/// Elements of a duct are not cut again.
-std::shared_ptr<Discrete> DuctDiscrete::made_as(const Discrete& other, const VectorXd* /*state*/) const {
+std::shared_ptr<Discrete> DuctDiscrete::made_as(const Discrete& other) const {
   const auto made = std::make_shared<DuctDiscrete>(problem_, subdivision_, resolution().degree, symmetry_);
   made->space().set_points(transferred_points(static_cast<const DuctDiscrete&>(other).space(), made->space()));
   return made;
@@ -110,6 +111,12 @@ void DuctDiscrete::fit(const VectorXd& unknowns) { space().set_points(fitted_poi
 
 VectorXd DuctDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
   return transfer(static_cast<const DuctDiscrete&>(other).space(), unknowns, space());
+}
+
+VectorXd DuctDiscrete::carry_from(const Discrete& other, const VectorXd& unknowns) const {
+  VectorXd carried = transfer_from(other, unknowns);
+  carry_liquid(static_cast<const DuctDiscrete&>(other).space(), unknowns, space(), carried);
+  return carried;
 }
 
 namespace {
@@ -165,6 +172,7 @@ Geometry duct_geometry(const Problem& problem) {
   if (problem.cortex.bending > 0) {  // a sharp rim, as in the tube
     duct.climbs_anew = true;
     duct.fine.iteration_limit = duct.along.iteration_limit = 12;
+    duct.fine.tolerance = 1e-8;
   }
   duct.adds_lower_change = true;
   duct.errors = {.fraction_of_change_before = 0.1, .min_of_two = 6e-4};

@@ -34,11 +34,12 @@ class DuctDiscrete final : public Discrete {
   StateNumbers numbers(const Problem&, const VectorXd& unknowns) const override;
   void describe(const Problem&, const VectorXd& unknowns, StationaryState&) const override;
   VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const override;
+  VectorXd carry_from(const Discrete& other, const VectorXd& unknowns) const override;
   void move_to(const Problem&) override;
 
  private:
   double mesh_quality(const VectorXd& unknowns) const override;
-  std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const override;
+  std::shared_ptr<Discrete> made_as(const Discrete& other) const override;
   void fit(const VectorXd& unknowns) override;
   std::shared_ptr<DuctSpace> make_space(const Problem&) const;
   std::unique_ptr<DuctSystem> make_system(const Problem&) const;

@@ -38,7 +38,6 @@ struct Geometry {
   /// these.
   double gain_of_finer = 1, gain_by_change = 0;
   double margin_at_coarse_ends = small_margin;  ///< of the surface's stability, where a search gives up before
-  bool cuts_elements = false;                   ///< again, where it fits a mesh to the cell
   bool ends_late_on_finer = false;              ///< so much later that a coarse end is told as one
   bool knows_ends = false;                      ///< of bare solids (solve/branch_ends.h)
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/settle.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
@@ -99,6 +100,8 @@ void ResolvedBranch::take(const ContinuationReport& report, ResolvedState& state
 
 /// Where a state is carried to another resolution: so far back from the last one, and farther.
 constexpr double steps_back[] = {1, 0.92, 0.8};
+/// How far the elements on the surface are moved towards even ones where a mesh is fitted.
+constexpr double evenly_cut[] = {1, 0.3, 0};
 
 ResolvedState ResolvedBranch::start(const Resolution& resolution, const ContinuationOptions& options,
                                     const Accept& accept) {
@@ -135,11 +138,10 @@ void ResolvedBranch::advance(ResolvedState& state, double compliance, const Cont
 bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
   options.iteration_limit = geometry_.across.iteration_limit;  // the mesh changes as from one way to the next
   const auto& [parameter, unknowns, tangent, iterations, step, aim] = state.branch;
-  for (const auto elements : {Discrete::Elements::even, Discrete::Elements::same}) {
-    if (elements == Discrete::Elements::even && !geometry_.cuts_elements) continue;
-    const auto discrete = state.discrete->fitted(unknowns, elements);
+  for (const double evenly : evenly_cut) {
+    const auto discrete = state.discrete->fitted(unknowns, evenly);
     if (!discrete) continue;
-    ResolvedState found = solved(discrete, parameter, discrete->transfer_from(*state.discrete, unknowns), options);
+    ResolvedState found = settled(discrete, parameter, discrete->carry_from(*state.discrete, unknowns), options);
     if (found.status == Status::stopped) return state.status = found.status, false;
     if (found.status != Status::converged || is_wrinkled(found)) continue;
     state.discrete->system().drop_factors();  // the trail keeps it
@@ -163,17 +165,31 @@ ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double 
   return state;
 }
 
+ResolvedState ResolvedBranch::settled(std::shared_ptr<Discrete> discrete, double compliance, VectorXd guess,
+                                      const NewtonOptions& options) {
+  ResolvedState state = solved(discrete, compliance, guess, options);
+  if (state.status == Status::converged || state.status == Status::stopped) return state;
+  const Metered metered(*this, discrete->system());
+  ContinuationReport report = settle(discrete->system(), media_(compliance), std::move(guess), options);
+  statistics_.newton_iterations += report.newton_iterations;
+  state.status = report.status;
+  state.residual = report.residual;
+  state.branch.unknowns = std::move(report.last.unknowns);
+  state.branch.newton_iterations += report.newton_iterations;
+  return state;
+}
+
 ResolvedState ResolvedBranch::carried(const ResolvedState& from, const Resolution& resolution,
                                       const NewtonOptions& options) {
   auto discrete = discretise(resolution);
   if (const auto fitted = discrete->fitted_as(*from.discrete)) discrete = fitted;
   VectorXd guess = discrete->transfer_from(*from.discrete, from.branch.unknowns);
   if (discrete->is_worn(guess))
-    if (const auto fitted = discrete->fitted(guess, Discrete::Elements::even)) {
-      guess = fitted->transfer_from(*discrete, guess);
+    if (const auto fitted = discrete->fitted(guess, 1)) {
+      guess = fitted->carry_from(*discrete, guess);
       discrete = fitted;
     }
-  return solved(discrete, from.branch.parameter, std::move(guess), options);
+  return settled(discrete, from.branch.parameter, std::move(guess), options);
 }
 
 /// A state at another resolution: the last one, or one before it that Newton does not leave there; or the first one of

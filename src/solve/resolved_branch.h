@@ -47,6 +47,8 @@ class ResolvedBranch {
   Accept smooth();
   /// Newton at a compliance from a guess.
   ResolvedState solved(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
+  /// The same from unknowns that were carried from another mesh (solve/settle.h).
+  ResolvedState settled(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
   /// The same state at another resolution.
   ResolvedState at_resolution(const ResolvedState& from, const Resolution&);
 

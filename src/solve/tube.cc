@@ -5,6 +5,8 @@
 #include <memory>
 #include <numbers>
 
+#include "fem/carry_liquid.h"
+#include "fem/element_integrals.h"
 #include "fem/end_loads.h"
 #include "fem/fit_liquid.h"
 #include "fem/tube_fields.h"
@@ -151,19 +153,36 @@ void TubeDiscrete::set_points(const std::vector<Point>& points) {
 
 double TubeDiscrete::mesh_quality(const VectorXd& unknowns) const { return liquid_mesh_quality(space(), unknowns); }
 
-std::shared_ptr<Discrete> TubeDiscrete::made_as(const Discrete& other, const VectorXd* state) const {
-  const Discretisation& like_it = static_cast<const TubeDiscrete&>(other).space();
-  const SurfaceBreaks breaks = state ? fitted_breaks(like_it, *state) : like_it.mesh().breaks();
+double TubeDiscrete::surface_evenness(const VectorXd& unknowns) const {
+  return rheocyte::surface_evenness(space(), unknowns);
+}
+
+std::shared_ptr<TubeDiscrete> TubeDiscrete::with(const SurfaceBreaks& breaks, const Discretisation& points_as) const {
   const auto made =
       std::shared_ptr<TubeDiscrete>(new TubeDiscrete(problem_, resolution(), like(breaks, space().mesh().breaks())));
-  made->set_points(transferred_points(like_it, made->space()));
+  made->set_points(transferred_points(points_as, made->space()));
   return made;
+}
+
+std::shared_ptr<Discrete> TubeDiscrete::made_as(const Discrete& other) const {
+  const Discretisation& like_it = static_cast<const TubeDiscrete&>(other).space();
+  return with(like_it.mesh().breaks(), like_it);
+}
+
+std::shared_ptr<Discrete> TubeDiscrete::cut_again(const VectorXd& unknowns, double evenly) const {
+  return with(fitted_breaks(space(), unknowns, evenly), space());
 }
 
 void TubeDiscrete::fit(const VectorXd& unknowns) { set_points(fitted_points(space(), unknowns)); }
 
 VectorXd TubeDiscrete::transfer_from(const Discrete& other, const VectorXd& unknowns) const {
   return transfer(static_cast<const TubeDiscrete&>(other).space(), unknowns, space());
+}
+
+VectorXd TubeDiscrete::carry_from(const Discrete& other, const VectorXd& unknowns) const {
+  VectorXd carried = transfer_from(other, unknowns);
+  carry_liquid(static_cast<const TubeDiscrete&>(other).space(), unknowns, space(), carried);
+  return carried;
 }
 
 Contour TubeDiscrete::contour(const Problem&, const VectorXd& unknowns) const {
@@ -211,7 +230,11 @@ void TubeDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
 
 namespace {
 
-constexpr Subdivision coarse{2, 4, 1, 2}, middle{3, 6, 1, 2}, fine{4, 8, 2, 2};
+constexpr Subdivision coarse{2, 4, 1, 2}, dense{2, 10, 1, 2}, densest{3, 14, 2, 2}, middle{3, 6, 1, 2},
+    fine{4, 8, 2, 2};
+
+/// Of Newton's method: what rounding leaves of the residual where a sharp rim is bent is up to 1e-9.
+constexpr double of_bent_surface = 1e-8;
 
 /// So much farther may a branch go on finer meshes that its coarse ends say nothing.
 constexpr double never_hopeless = 100;
@@ -249,22 +272,22 @@ Geometry tube_geometry(const Problem& problem) {
   tube.gain_of_finer = 1.2;
   tube.gain_by_change = 6;
   tube.margin_at_coarse_ends = 0.3;
-  tube.cuts_elements = true;
   tube.ends_late_on_finer = true;
   tube.knows_ends = true;
-  if (problem.cortex.bending > 0) {
-    // The rim of a dented cell is sharp, wanders along the surface as the cell softens, and is seen by no coarse mesh.
-    tube.ways.push_back({{fine, 8}});
-    tube.min_step_before_refining = 0.01;
-    tube.gain_of_finer = never_hopeless;
-    tube.along.iteration_limit = 8;
-  }
-
   const bool is_narrow = problem.radius_ratio > narrow_gap;
   tube.rungs = {{coarse, 4, is_narrow ? 5 : 9, is_narrow, is_narrow},
                 {middle, 7, 10, false, is_narrow},
                 {fine, 7, 10, false, is_narrow}};
   tube.fine.tolerance = 1e-10;
+  if (problem.cortex.bending > 0) {
+    // The rim of a dented cell is sharp, wanders along the surface as the cell softens, and is seen by no coarse mesh.
+    tube.ways = {{{coarse, 4}}, {{coarse, 6}}, {{dense, 6}}, {{dense, 8}}};
+    tube.rungs = {tube.rungs.front(), {dense, 6, 9, false, is_narrow}, {densest, 6, 9, false, is_narrow}};
+    tube.min_step_before_refining = 3e-3;
+    tube.gain_of_finer = never_hopeless;
+    tube.along.iteration_limit = 8;
+    tube.fine.tolerance = of_bent_surface;
+  }
   tube.climbs_anew = true;
   tube.judges_rungs = true;
   tube.errors.fraction_of_inertia = 0.3;

@@ -30,6 +30,7 @@ class TubeDiscrete final : public Discrete {
   StateNumbers numbers(const Problem&, const VectorXd& unknowns) const override;
   void describe(const Problem&, const VectorXd& unknowns, StationaryState&) const override;
   VectorXd transfer_from(const Discrete& other, const VectorXd& unknowns) const override;
+  VectorXd carry_from(const Discrete& other, const VectorXd& unknowns) const override;
   void move_to(const Problem&) override;
 
  private:
@@ -39,8 +40,12 @@ class TubeDiscrete final : public Discrete {
     Discretisation of_mesh;
   };
   TubeDiscrete(const Problem&, const Resolution&, const SurfaceBreaks&);
+  /// At the same resolution, cut so, with nodes of the liquid as those of another one.
+  std::shared_ptr<TubeDiscrete> with(const SurfaceBreaks&, const Discretisation& points_as) const;
   double mesh_quality(const VectorXd& unknowns) const override;
-  std::shared_ptr<Discrete> made_as(const Discrete& other, const VectorXd* state) const override;
+  double surface_evenness(const VectorXd& unknowns) const override;
+  std::shared_ptr<Discrete> made_as(const Discrete& other) const override;
+  std::shared_ptr<Discrete> cut_again(const VectorXd& unknowns, double evenly) const override;
   void fit(const VectorXd& unknowns) override;
   void set_points(const std::vector<Point>&);
 
