@@ -62,7 +62,7 @@ double greatest_difference(Section section, int cells) {
   for (int i = 0; i < cells; ++i) {
     Problem cell = random_cell(random, i);
     cell.section = section;
-    // Stiffer surfaces than that are for tubes alone (case/check_duct.cc).
+    // Stiff surfaces take long in ducts, and the stiffest are refused there (case/check_duct.cc).
     if (section == Section::square) cell.cortex.bending *= 1e-3;
     const double difference = solved_modulus(cell) / effective_modulus(cell, cell.radius_ratio) - 1;
     greatest = std::max(greatest, std::abs(difference));
