@@ -21,6 +21,11 @@ struct Cortex {
 /// By which the pressure in a sphere at rest exceeds that around it (Laplace).
 inline double rest_pressure(const Cortex& cortex, double radius) { return 2 * cortex.tension / radius; }
 
+/// Poisson's ratio of the shell at small strains, where all its laws have the modulus E2D (docs/theory.md, eq:skalak).
+inline double poisson_ratio(const Cortex& cortex) {
+  return cortex.law == CortexLaw::skalak ? cortex.area_constant / (1 + cortex.area_constant) : 0.5;
+}
+
 /// Elastic energy of the shell per CURRENT area, zero at rest, of two invariants: the sum of the principal stretches
 /// and their product, the stretch of the area. Poisson's ratio 1/2, K = 4/3 E2D, but for skalak: C / (1 + C). linear:
 /// the energy whose tensions are eq. 19 of Mokbel et al. 2017 (there is one for this Poisson's ratio alone);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "analytic/effective_modulus.h"
 #include "case/scales.h"
 #include "case/write_case.h"
 #include "result/result.h"
@@ -80,7 +81,12 @@ std::span<const Field<Result, Json>> outcome_fields() {
       {"cortex_modulus_reached_mN_per_m", "modulus of its cortex; null without an elastic cortex",
        [](const Result& r) { return over(r.input.cell.cortex.modulus_mN_per_m, r.state.outcome.reached); }},
       {"tension_mN_per_m", "wanted surface tension of the cell, given or a fraction of the cortex modulus",
-       [](const Result& r) -> Json { return tension_mN_per_m(r.input); }}};
+       [](const Result& r) -> Json { return tension_mN_per_m(r.input); }},
+      {"effective_modulus_kPa",
+       "Young's modulus of the homogeneous solid that a small axial tension elongates as much as the wanted cell, with "
+       "its bulk, its cortex, its surface tension and its bending stiffness (docs/theory-analytic.md, "
+       "eq:effective-modulus); null for a cell with a rest_aspect",
+       [](const Result& r) -> Json { return effective_modulus_kPa(r); }}};
   return fields;
 }
 
@@ -157,6 +163,11 @@ std::span<const Field<Result, Json>> thread_fields() {
   static constexpr Key fields[] = {
       {"processors", "of the machine", [](const Result&) -> Json { return std::thread::hardware_concurrency(); }}};
   return fields;
+}
+
+double effective_modulus_kPa(const Result& result) {
+  const double one = dimensionless_one(unit_of("effective_modulus_kPa"), result.scales);
+  return effective_modulus(result.problem, result.problem.radius_ratio) * one;
 }
 
 void refuse_unfinite_numbers(Result& result) {

@@ -87,6 +87,16 @@ std::string measures_text(const Result& result) {
   return text;
 }
 
+/// Of a cell with a cortex; of a solid it is its own modulus.
+std::string effective_modulus_line(const Result& result) {
+  const Cortex& cortex = result.problem.cortex;
+  const double modulus_kPa = effective_modulus_kPa(result);
+  const bool is_solid = cortex.law == CortexLaw::none && cortex.tension == 0 && cortex.bending == 0;
+  if (is_solid || !std::isfinite(modulus_kPa)) return "";
+  return line("effective modulus", fmt::format("{:.4g} kPa", modulus_kPa),
+              "of a solid that a small tension elongates as much");
+}
+
 /// What the estimated error is relative to, and which one is wanted.
 std::string error_remark(const Result& result) {
   const Case& input = result.input;
@@ -150,7 +160,7 @@ std::string offset_outline_csv(const Eigen::MatrixX2d& outline, const Scales& sc
 std::string summary(const Result& result, const std::string& folder) {
   const StationaryState& state = result.state;
   std::string text = fmt::format("rheocyte {}: {}\n", version, name(state.outcome.status));
-  text += channel_line(result.input) + measures_text(result);
+  text += channel_line(result.input) + measures_text(result) + effective_modulus_line(result);
   if (const double reached = state.outcome.reached; reached > 0 && reached < 1) {
     const Cell& cell = result.input.cell;
     const auto modulus = [&](std::string_view name, const std::optional<double>& wanted, std::string_view unit) {

@@ -30,6 +30,7 @@ TEST(Cortex, AllLawsAgreeToFirstOrder) {
         EXPECT_NEAR(T[1], 4.0 / 3 * E2D * (e2 + e1 / 2), 20 * E2D * e * e);
       }
     }
+    EXPECT_EQ(poisson_ratio({law}), 0.5);
   }
 }
 
@@ -46,6 +47,7 @@ TEST(SkalakCortex, ItHasTheSurfaceModulusAndThePoissonsRatioOfItsConstant) {
     const auto T = principal_tensions(skalak(C), one, other);
     const double nu = C / (1 + C), along = T[0].slope(0), across = T[0].slope(1);
     EXPECT_NEAR(across / along, nu, rounding);
+    EXPECT_NEAR(poisson_ratio(skalak(C)), nu, rounding);
     EXPECT_NEAR(along * (1 - across / along * across / along) / E2D, 1, rounding * (1 + C));
   }
 }
