@@ -1,4 +1,6 @@
 // From one resolution of a branch to the next finer one, and from one problem to a neighbouring one.
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "solve/resolved_branch.h"
@@ -16,11 +18,14 @@ void ResolvedBranch::report_last(const Ladder& ladder) {
   report(*last.discrete, last.branch, ladder.deformation());
 }
 
-/// Where the gap is narrow the coarsest mesh is not trusted: neighbouring degrees agree there although both are wrong.
+bool ResolvedBranch::only_begins(const ResolvedState& state) const {
+  const auto own = std::ranges::find(geometry_.rungs, state.discrete->resolution().subdivision, &Rungs::subdivision);
+  if (own == geometry_.rungs.end()) return false;
+  return own->only_begins || (own->is_rough_at_rims && state.discrete->is_fitted());
+}
+
 bool ResolvedBranch::is_accurate(const Ladder& ladder) const {
-  if (ladder.rungs.size() < 2) return false;
-  const Rungs& first = geometry_.rungs.front();
-  if (first.only_begins && ladder.rungs.back().discrete->resolution().subdivision == first.subdivision) return false;
+  if (ladder.rungs.size() < 2 || only_begins(ladder.rungs.back())) return false;
   return ladder.stated_error(problem_) <= problem_.accuracy;
 }
 
@@ -35,7 +40,8 @@ Status ResolvedBranch::climb(ResolvedState& state, Ladder& ladder) {
     if (rungs.subdivision.top < state.discrete->resolution().subdivision.top) continue;
     const bool same_mesh = rungs.subdivision == state.discrete->resolution().subdivision;
     Ladder before{geometry_.errors};  // a new mesh at a lower degree need not be better at once
-    if (!same_mesh && !rungs.goes_on) std::swap(ladder, before);
+    const bool goes_on = rungs.goes_on || (!ladder.rungs.empty() && only_begins(ladder.rungs.back()));
+    if (!same_mesh && !goes_on) std::swap(ladder, before);
     const Status status = climb_on(rungs, state, ladder);
     if (!before.rungs.empty() && !(ladder.estimated_error <= before.estimated_error)) {
       std::swap(ladder, before);
@@ -44,6 +50,8 @@ Status ResolvedBranch::climb(ResolvedState& state, Ladder& ladder) {
     if (status == Status::converged || status == Status::stopped) return status;
     if (status == Status::surface_unstable || geometry_.rungs.size() == 1) reason = status;
   }
+  if (!ladder.rungs.empty() && only_begins(ladder.rungs.back()))
+    ladder.estimated_error = std::numeric_limits<double>::infinity();
   return reason;
 }
 
@@ -64,6 +72,7 @@ Status ResolvedBranch::climb_on(const Rungs& rungs, ResolvedState& state, Ladder
     add(state, ladder);
     report_last(ladder);
     if (is_accurate(ladder)) return Status::converged;
+    if (state.discrete->is_fitted() && only_begins(state)) break;
   }
   return Status::accuracy_not_reached;
 }

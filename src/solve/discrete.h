@@ -46,9 +46,20 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   /// those of this one (`evenly` = 0), or are moved that part of the way to where they are even. Nothing if that is
   /// hardly better than this one.
   std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, double evenly) const;
+  /// Gives meshes that are fitted so, ever more like this one, with the state's unknowns carried to them, to
+  /// `accept(discrete, guess)` until it takes one.
+  template <class Accept>
+  bool try_fitted(const VectorXd& unknowns, const Accept& accept) const {
+    for (const double evenly : {1.0, 0.3, 0.0}) {
+      const auto discrete = fitted(unknowns, evenly);
+      if (discrete && accept(discrete, discrete->carry_from(*this, unknowns))) return true;
+    }
+    return false;
+  }
   /// At this resolution with a mesh that follows the cell as that of another one of the same kind of geometry; nothing
   /// if that has not been fitted.
   std::shared_ptr<Discrete> fitted_as(const Discrete& other) const;
+  bool is_fitted() const { return is_fitted_; }
   /// Whether the mesh of the liquid has become much worse than it was.
   bool is_worn(const VectorXd& unknowns) const;
   /// Becomes that of another problem whose unknowns mean the same (Geometry::is_alike). The factors stay, for chord
@@ -56,7 +67,6 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   virtual void move_to(const Problem&) = 0;
 
  protected:
-  bool is_fitted() const { return is_fitted_; }
   /// Of the liquid's mesh: 1 where it is not distorted, 0 where it folds.
   virtual double mesh_quality(const VectorXd& unknowns) const = 0;
   /// Of the elements on the surface: 1 where they are even, or cannot be cut again.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/fit_on_the_way.h"
 #include "solve/settle.h"
 #include "solve/surface_stability.h"
 
@@ -100,8 +101,6 @@ void ResolvedBranch::take(const ContinuationReport& report, ResolvedState& state
 
 /// Where a state is carried to another resolution: so far back from the last one, and farther.
 constexpr double steps_back[] = {1, 0.92, 0.8};
-/// How far the elements on the surface are moved towards even ones where a mesh is fitted.
-constexpr double evenly_cut[] = {1, 0.3, 0};
 
 ResolvedState ResolvedBranch::start(const Resolution& resolution, const ContinuationOptions& options,
                                     const Accept& accept) {
@@ -122,35 +121,24 @@ void ResolvedBranch::advance(ResolvedState& state, double compliance, const Cont
     ContinuationOptions here = with(options, accept, discrete);
     if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
     take(continue_branch(path, here, state.branch), state);
+    return WayPoint{state.status, state.branch.parameter};
   };
-  double fitted_at = -1;
-  go(true);
-  while (state.branch.parameter < compliance) {
-    if (state.status == Status::stopped || state.status == Status::surface_unstable) return;
-    const bool has_paused = state.status == Status::converged;
-    const bool is_fitted =
-        std::exchange(fitted_at, state.branch.parameter) < state.branch.parameter && fit(state, options.newton);
-    if (!is_fitted && !has_paused) return;
-    go(is_fitted);
-  }
+  fit_on_the_way(compliance, go, [&] { return fit(state, options.newton); });
 }
 
 bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
   options.iteration_limit = geometry_.across.iteration_limit;  // the mesh changes as from one way to the next
-  const auto& [parameter, unknowns, tangent, iterations, step, aim] = state.branch;
-  for (const double evenly : evenly_cut) {
-    const auto discrete = state.discrete->fitted(unknowns, evenly);
-    if (!discrete) continue;
-    ResolvedState found = settled(discrete, parameter, discrete->carry_from(*state.discrete, unknowns), options);
-    if (found.status == Status::stopped) return state.status = found.status, false;
-    if (found.status != Status::converged || is_wrinkled(found)) continue;
-    state.discrete->system().drop_factors();  // the trail keeps it
-    found.branch.step = step;
-    found.branch.aim = aim;
+  const auto before = state.discrete;
+  return before->try_fitted(state.branch.unknowns, [&](const std::shared_ptr<Discrete>& discrete, VectorXd guess) {
+    if (is_stopped()) return false;
+    ResolvedState found = settled(discrete, state.branch.parameter, std::move(guess), options);
+    if (found.status != Status::converged || is_wrinkled(found)) return false;
+    before->system().drop_factors();  // the trail keeps it
+    found.branch.step = state.branch.step;
+    found.branch.aim = state.branch.aim;
     state = std::move(found);
     return true;
-  }
-  return false;
+  });
 }
 
 ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double compliance, VectorXd guess,

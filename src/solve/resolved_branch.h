@@ -56,6 +56,8 @@ class ResolvedBranch {
   /// not. The ladder is the last one that was climbed, the state its last rung.
   Status climb(ResolvedState&, Ladder&);
   bool is_accurate(const Ladder&) const;
+  /// Whether a rung can only be compared with.
+  bool only_begins(const ResolvedState&) const;
   /// Of a neighbouring problem, moved to this one as far as the accuracy needs it; or why not. The systems are those of
   /// the former ladder, which is lost but for its unknowns.
   Status carry(const Problem& from, const Ladder& former, Ladder&);

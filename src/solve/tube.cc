@@ -230,7 +230,7 @@ void TubeDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
 
 namespace {
 
-constexpr Subdivision coarse{2, 4, 1, 2}, dense{2, 10, 1, 2}, densest{3, 14, 2, 2}, middle{3, 6, 1, 2},
+constexpr Subdivision coarse{2, 4, 1, 2}, dense{2, 10, 1, 2}, densest{4, 10, 2, 2}, middle{3, 6, 1, 2},
     fine{4, 8, 2, 2};
 
 /// Of Newton's method: what rounding leaves of the residual where a sharp rim is bent is up to 1e-9.
@@ -275,14 +275,20 @@ Geometry tube_geometry(const Problem& problem) {
   tube.ends_late_on_finer = true;
   tube.knows_ends = true;
   const bool is_narrow = problem.radius_ratio > narrow_gap;
-  tube.rungs = {{coarse, 4, is_narrow ? 5 : 9, is_narrow, is_narrow},
-                {middle, 7, 10, false, is_narrow},
-                {fine, 7, 10, false, is_narrow}};
+  tube.rungs = {{coarse, 4, is_narrow ? 5 : 9, is_narrow, false, is_narrow},
+                {middle, 7, 10, false, false, is_narrow},
+                {fine, 7, 10, false, false, is_narrow}};
   tube.fine.tolerance = 1e-10;
   if (problem.cortex.bending > 0) {
     // The rim of a dented cell is sharp, wanders along the surface as the cell softens, and is seen by no coarse mesh.
     tube.ways = {{{coarse, 4}}, {{coarse, 6}}, {{dense, 6}}, {{dense, 8}}};
-    tube.rungs = {tube.rungs.front(), {dense, 6, 9, false, is_narrow}, {densest, 6, 9, false, is_narrow}};
+    Rungs first = tube.rungs.front(), second{.subdivision = dense, .first_degree = 6, .last_degree = 9};
+    first.is_rough_at_rims = second.is_rough_at_rims = true;  // the bulk below a rim needs elements of its own
+    second.goes_on = is_narrow;
+    Rungs last = second;
+    last.subdivision = densest;
+    last.is_rough_at_rims = false;
+    tube.rungs = {first, second, last};
     tube.min_step_before_refining = 3e-3;
     tube.gain_of_finer = never_hopeless;
     tube.along.iteration_limit = 8;

@@ -5,22 +5,12 @@
 
 #include "numeric/hermite.h"
 #include "shape/measures.h"
+#include "solve/fit_on_the_way.h"
+#include "solve/settle.h"
 
 namespace rheocyte {
 namespace {
 
-/// Ever finer resolutions; a state is accurate if the one before gives the same deformation. Its error is taken as this
-/// fraction of the change from the level before.
-struct Level {
-  Resolution resolution;
-  double fraction_of_change;
-};
-const std::array<Level, 6> resolutions = {{{{{2, 4, 1, 2}, 5}, 1},
-                                           {{{2, 4, 1, 2}, 6}, 1},
-                                           {{{2, 4, 1, 2}, 8}, 0.5},
-                                           {{{3, 6, 1, 2}, 8}, 0.5},
-                                           {{{3, 6, 1, 2}, 10}, 0.5},
-                                           {{{4, 8, 2, 2}, 10}, 0.5}}};
 /// Of the admitted error; a state that is less accurate is solved on the next level, if it is there.
 constexpr double wanted_fraction = 0.5;
 /// Of Newton's method; on the level before, whose state only tells the error, less will do.
@@ -32,13 +22,10 @@ constexpr double first_displacement = 0.006;
 /// Step in u for slopes of the measures along the tangent.
 constexpr double slope_step = 1e-4;
 
-double factorisation_seconds_of(TubeDiscrete& discrete) { return discrete.system().work().factorisation_s; }
-
 }  // namespace
 
 BranchStates::BranchStates(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop)
     : spec_(spec), place_(place), axial_ratio_(place.axial_ratio) {
-  static_assert(resolutions.size() == levels);
   place_.axial_ratio = 0;
   newton_.stop = stop;
   newton_.tolerance = tolerance;
@@ -58,14 +45,8 @@ double BranchStates::admitted_error(const BranchNode& node) const {
 double BranchStates::stiffness(double u) const { return first_stiffness_ * std::exp(-u); }
 Problem BranchStates::problem(double u) const { return problem_of(case_at(spec_, place_, stiffness(u))); }
 
-TubeDiscrete& BranchStates::at_level(int level) {
-  if (!discrete_[level])
-    discrete_[level] = std::make_unique<TubeDiscrete>(problem(0), resolutions[std::size_t(level)].resolution);
-  return *discrete_[level];
-}
-
-Path BranchStates::path(int level, double end) {
-  return {[this, level](double) -> NonlinearSystem& { return at_level(level).system(); },
+Path BranchStates::path(TubeDiscrete& discrete, double end) const {
+  return {[&discrete](double) -> NonlinearSystem& { return discrete.system(); },
           [this](double u) { return media_at(problem(u), 1); }, end, -std::numeric_limits<double>::infinity()};
 }
 
@@ -83,9 +64,10 @@ ContinuationOptions BranchStates::continuation() {
 
 namespace {
 
-BranchNode unmeasured(double u, int level, VectorXd unknowns) {
+BranchNode unmeasured(double u, BranchMeshes& meshes, int level, VectorXd unknowns) {
   BranchNode node;
   node.u = u;
+  node.meshes = &meshes;
   node.level = level;
   node.unknowns = std::move(unknowns);
   return node;
@@ -99,7 +81,8 @@ BranchStates::Way BranchStates::enter() {
 }
 
 BranchStates::Way BranchStates::enter_round() {
-  TubeDiscrete& discrete = at_level(0);
+  BranchMeshes& meshes = *meshes_.emplace_back(std::make_unique<BranchMeshes>(problem(0)));
+  TubeDiscrete& discrete = meshes.at(0);
   ContinuationOptions start = continuation();
   start.accept = {};
   start.displacement_per_step = first_displacement;
@@ -107,9 +90,9 @@ BranchStates::Way BranchStates::enter_round() {
     const ContinuationReport report = start_branch(stiffness_path(discrete.system(), problem(0)), start);
     count(report.newton_iterations);
     if (report.status != Status::converged) return {report.status, {}};
-    const double d = shape(0, report.last.unknowns).deformation;
+    const double d = discrete.deformation(problem(0), report.last.unknowns);
     if (report.last.parameter == 1 && d <= spec_.min_deformation)
-      return {Status::converged, unmeasured(0, 0, report.last.unknowns)};
+      return {Status::converged, unmeasured(0, meshes, 0, report.last.unknowns)};
     // The deformation goes with the square of the compliance.
     first_stiffness_ *=
         report.last.parameter < 1 ? 1.01 / report.last.parameter : 1.05 * std::sqrt(d / spec_.min_deformation);
@@ -124,7 +107,7 @@ BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
     return problem_of(case_at(spec_, place, first_stiffness_));
   };
   Path drawing =
-      stiffness_path(at_level(0).system(), [&](double fraction) { return media_at(problem_at(fraction), 1); });
+      stiffness_path(discrete_of(round).system(), [&](double fraction) { return media_at(problem_at(fraction), 1); });
   drawing.origin = -std::numeric_limits<double>::infinity();
   ContinuationOptions options = continuation();
   options.accept = [&](const NonlinearSystem& system, const BranchState& state) {
@@ -133,20 +116,69 @@ BranchStates::Way BranchStates::draw_out(const BranchNode& round) {
   const ContinuationReport report = continue_branch(drawing, options, {0, round.unknowns, {}, 0});
   count(report.newton_iterations);
   place_.axial_ratio = axial_ratio_;
-  return {report.status, unmeasured(0, 0, report.last.unknowns)};
+  return {report.status, unmeasured(0, *round.meshes, 0, report.last.unknowns)};
 }
 
 BranchStates::Way BranchStates::walk(const BranchNode& from, double u) {
-  const ContinuationReport report =
-      continue_branch(path(from.level, u), continuation(), {from.u, from.unknowns, from.tangent, 0});
-  count(report.newton_iterations);
-  return {report.status, unmeasured(report.last.parameter, from.level, report.last.unknowns)};
+  Way way{Status::converged, unmeasured(from.u, *from.meshes, from.level, from.unknowns)};
+  BranchState last{from.u, from.unknowns, from.tangent, 0};
+  const auto go = [&](bool pauses) {
+    TubeDiscrete& discrete = discrete_of(way.last);
+    ContinuationOptions options = continuation();
+    if (pauses) options.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
+    const ContinuationReport report = continue_branch(path(discrete, u), options, last);
+    count(report.newton_iterations);
+    last = report.last;
+    way.status = report.status;
+    way.last.u = last.parameter;
+    way.last.unknowns = last.unknowns;
+    return WayPoint{way.status, way.last.u};
+  };
+  // Bare surfaces lose stability before they need it.
+  if (problem(from.u).cortex.bending == 0) return go(false), way;
+  fit_on_the_way(u, go, [&] {
+    if (!fit(way.last)) return false;
+    last.unknowns = way.last.unknowns;
+    last.tangent = {};
+    return true;
+  });
+  return way;
+}
+
+bool BranchStates::fit(BranchNode& node) {
+  return discrete_of(node).try_fitted(node.unknowns, [&](const std::shared_ptr<Discrete>& fitted, VectorXd guess) {
+    auto meshes = std::make_unique<BranchMeshes>(problem(0), fitted);
+    if (solve(meshes->at(node.level), node.u, tolerance, guess) != Status::converged) return false;
+    for (const auto& former : meshes_) former->drop_factors();
+    node.meshes = meshes_.emplace_back(std::move(meshes)).get();
+    node.unknowns = std::move(guess);
+    return true;
+  });
+}
+
+Status BranchStates::solve(TubeDiscrete& discrete, double u, double to_tolerance, VectorXd& unknowns) {
+  const Media media = media_at(problem(u), 1);
+  NewtonOptions options = newton_;
+  options.tolerance = to_tolerance;
+  VectorXd found = unknowns;
+  const NewtonReport report = newton(discrete.system(), media, options, found);
+  count(report.iterations);
+  Status status = report.status;
+  if (status != Status::converged && status != Status::stopped && problem(u).cortex.bending > 0) {
+    ContinuationReport settled = settle(discrete.system(), media, unknowns, options);
+    newton_iterations_ += settled.newton_iterations;
+    status = settled.status;
+    found = std::move(settled.last.unknowns);
+  }
+  if (status == Status::converged) unknowns = std::move(found);
+  return status;
 }
 
 BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
-  const int coarse = from.level - 1;
-  BranchNode start = unmeasured(from.u, coarse, carried(from.unknowns, from.level, coarse));
-  start.tangent = carried(from.tangent, from.level, coarse);
+  const TubeDiscrete &fine = discrete_of(from), &coarse = from.meshes->at(from.level - 1);
+  BranchNode start =
+      unmeasured(from.u, *from.meshes, from.level - 1, coarse.transfer_from(fine, from.unknowns));
+  if (from.tangent.size() > 0) start.tangent = coarse.transfer_from(fine, from.tangent);
   Way way = walk(start, u);
   const double reached = way.last.u;
   if (reached == from.u) {
@@ -161,30 +193,22 @@ BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
   return nearer - from.u > least_advance ? advance(from, nearer) : Way{Status::surface_unstable, from};
 }
 
-VectorXd BranchStates::carried(const VectorXd& unknowns, int from, int to) {
-  if (from == to || unknowns.size() == 0) return unknowns;
-  return transfer(at_level(from).space(), unknowns, at_level(to).space());
-}
-
 BranchStates::Way BranchStates::between(const BranchNode& a, const BranchNode& b, double u) {
-  TubeDiscrete& discrete = at_level(b.level);
+  TubeDiscrete& discrete = discrete_of(b);
   VectorXd found = cubic_between(a, b, std::expm1(u - a.u) / std::expm1(b.u - a.u));
-  const NewtonReport report = newton(discrete.system(), media_at(problem(u), 1), newton_, found);
-  count(report.iterations);
-  Status status = report.status;
-  if (status == Status::converged && is_wrinkled(problem(u), discrete.space(), found))
-    status = Status::surface_unstable;
-  return {status, unmeasured(u, b.level, std::move(found))};
+  Status status = solve(discrete, u, tolerance, found);
+  if (status == Status::converged && discrete.is_wrinkled(problem(u), found)) status = Status::surface_unstable;
+  return {status, unmeasured(u, *b.meshes, b.level, std::move(found))};
 }
 
 bool BranchStates::measure(BranchNode& node) {
   const Scales scales = scales_of(case_at(spec_, place_, first_stiffness_));
   while (true) {
-    TubeDiscrete& discrete = at_level(node.level);
+    TubeDiscrete& discrete = discrete_of(node);
     const Problem here = problem(node.u);
     discrete.system().linearise(media_at(here, 1), node.unknowns);
     if (!discrete.system().has_factors()) return false;
-    node.tangent = branch_tangent(path(node.level, node.u), {node.u, node.unknowns, {}, 0});
+    node.tangent = branch_tangent(path(discrete, node.u), {node.u, node.unknowns, {}, 0});
     measure_with_slopes(node, scales);
     node.error = error_of(node);
     const double admitted = admitted_error(node);
@@ -197,7 +221,7 @@ bool BranchStates::measure(BranchNode& node) {
 
 void BranchStates::measure_with_slopes(BranchNode& node, const Scales& scales) {
   const auto moved = [&](double step) {
-    return measure_state(at_level(node.level).space(), problem(node.u + step), scales,
+    return measure_state(discrete_of(node).space(), problem(node.u + step), scales,
                          node.unknowns + step * node.tangent);
   };
   const MeasuredState plus = moved(slope_step), minus = moved(-slope_step);
@@ -208,51 +232,47 @@ void BranchStates::measure_with_slopes(BranchNode& node, const Scales& scales) {
 
 double BranchStates::error_of(const BranchNode& node) {
   const auto error_from = [&](double before) {
-    return resolutions[std::size_t(node.level)].fraction_of_change * std::abs(before / node.at(progress_of(spec_)) - 1);
+    return fraction_of_change(problem(node.u), node.level) * std::abs(before / node.at(progress_of(spec_)) - 1);
   };
   if (node.progress_before > 0) return error_from(node.progress_before);
-  TubeDiscrete& before = at_level(node.level - 1);
-  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, before.space());
-  NewtonOptions options = newton_;
-  options.tolerance = tolerance_before;
-  const NewtonReport report = newton(before.system(), media_at(problem(node.u), 1), options, unknowns);
-  count(report.iterations);
-  if (report.status != Status::converged) return std::numeric_limits<double>::infinity();
-  return error_from(progress(node.level - 1, unknowns));
+  TubeDiscrete& before = node.meshes->at(node.level - 1);
+  VectorXd unknowns = before.transfer_from(discrete_of(node), node.unknowns);
+  if (solve(before, node.u, tolerance_before, unknowns) != Status::converged)
+    return std::numeric_limits<double>::infinity();
+  return error_from(progress(before, unknowns));
 }
 
 bool BranchStates::refine(BranchNode& node) {
-  if (node.level + 1 >= levels) return false;
-  TubeDiscrete& next = at_level(node.level + 1);
-  VectorXd unknowns = transfer(at_level(node.level).space(), node.unknowns, next.space());
-  const NewtonReport report = newton(next.system(), media_at(problem(node.u), 1), newton_, unknowns);
-  count(report.iterations);
-  if (report.status != Status::converged || is_wrinkled(problem(node.u), next.space(), unknowns)) return false;
-  node.progress_before = progress(node.level, node.unknowns);
+  if (node.level + 1 >= BranchMeshes::levels) return false;
+  TubeDiscrete &own = discrete_of(node), &next = node.meshes->at(node.level + 1);
+  VectorXd unknowns = next.transfer_from(own, node.unknowns);
+  if (solve(next, node.u, tolerance, unknowns) != Status::converged || next.is_wrinkled(problem(node.u), unknowns))
+    return false;
+  node.progress_before = progress(own, node.unknowns);
   // A measured state keeps its tangent, which cubics from it to others need; carried over, it is good enough for them.
-  node.tangent = carried(node.tangent, node.level, node.level + 1);
+  if (node.tangent.size() > 0) node.tangent = next.transfer_from(own, node.tangent);
   ++node.level;
   node.unknowns = unknowns;
   return true;
 }
 
 VectorXd BranchStates::cubic_between(const BranchNode& a, const BranchNode& b, double part) {
+  const TubeDiscrete &of_a = discrete_of(a), &of_b = discrete_of(b);
+  const auto carried = [&](const VectorXd& unknowns) {
+    return &of_a == &of_b ? unknowns : of_b.transfer_from(of_a, unknowns);
+  };
   const double way = std::expm1(b.u - a.u);  // in the compliance, over that of a
-  const VectorXd slope = way * carried(a.tangent, a.level, b.level), end_slope = way * std::exp(a.u - b.u) * b.tangent;
-  return hermite(part)(carried(a.unknowns, a.level, b.level), b.unknowns, slope, end_slope);
+  const VectorXd slope = way * carried(a.tangent), end_slope = way * std::exp(a.u - b.u) * b.tangent;
+  return hermite(part)(carried(a.unknowns), b.unknowns, slope, end_slope);
 }
 
 double BranchStates::log_progress_between(const BranchNode& a, const BranchNode& b, double part) {
-  return std::log(progress(b.level, cubic_between(a, b, part)));
+  return std::log(progress(discrete_of(b), cubic_between(a, b, part)));
 }
 
-ShapeMeasures BranchStates::shape(int level, const VectorXd& unknowns) {
-  return rheocyte::measure(contour(at_level(level).space(), unknowns));
-}
-
-double BranchStates::progress(int level, const VectorXd& unknowns) {
+double BranchStates::progress(const TubeDiscrete& discrete, const VectorXd& unknowns) const {
   StateNumbers numbers;
-  numbers.shape = shape(level, unknowns);
+  numbers.shape = rheocyte::measure(contour(discrete.space(), unknowns));
   return table_measures[std::size_t(int(progress_of(spec_)))].value(numbers);
 }
 
@@ -261,17 +281,11 @@ void BranchStates::count(int iterations) {
   newton_iterations_ += iterations;
 }
 
-void BranchStates::release_coarser_than(int level) {
-  for (int i = 0; i < level - 1; ++i) {
-    if (discrete_[i]) released_factorisation_ += factorisation_seconds_of(*discrete_[i]);
-    discrete_[i].reset();
-  }
-}
+void BranchStates::release_coarser_than(const BranchNode& node) { node.meshes->release_coarser_than(node.level); }
 
 double BranchStates::factorisation_seconds() const {
-  double seconds = released_factorisation_;
-  for (const auto& discrete : discrete_)
-    if (discrete) seconds += factorisation_seconds_of(*discrete);
+  double seconds = 0;
+  for (const auto& meshes : meshes_) seconds += meshes->factorisation_seconds();
   return seconds;
 }
 

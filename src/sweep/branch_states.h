@@ -1,11 +1,11 @@
 // The states of one branch of a sweep, each at the resolution that its accuracy needs.
 #pragma once
-#include <array>
 #include <atomic>
 #include <memory>
+#include <vector>
 
 #include "case/scales.h"
-#include "solve/tube.h"
+#include "sweep/branch_meshes.h"
 #include "sweep/measured_state.h"
 #include "table/progress.h"
 #include "table/table_spec.h"
@@ -15,7 +15,8 @@ namespace rheocyte {
 /// A state at u = ln(first stiffness / stiffness).
 struct BranchNode {
   double u = 0;
-  int level = 0;               ///< of the resolutions
+  BranchMeshes* meshes = nullptr;
+  int level = 0;               ///< of the meshes
   VectorXd unknowns, tangent;  ///< d/du
   MeasuredState state;
   Eigen::VectorXd slope;  ///< d(value)/du
@@ -60,8 +61,8 @@ class BranchStates {
   bool refine(BranchNode&);
   /// A part of the way between two measured nodes, in the compliance: of the cubic through their states.
   double log_progress_between(const BranchNode& a, const BranchNode& b, double part);
-  /// A state needs its own level and the one before, which tells its error; factors take some 100 MB on the others.
-  void release_coarser_than(int level);
+  /// A state needs its own level and the one before, which determines its error; factors take some 100 MB on the others.
+  void release_coarser_than(const BranchNode&);
 
   int solves() const { return solves_; }
   int newton_iterations() const { return newton_iterations_; }
@@ -69,23 +70,22 @@ class BranchStates {
   double factorisation_seconds() const;
 
  private:
-  static constexpr int levels = 6;
-
   Way enter_round();
-  /// To the wanted axial ratio at the first stiffness.
+  /// To the requested axial ratio at the first stiffness.
   Way draw_out(const BranchNode& round);
   Problem problem(double u) const;
-  TubeDiscrete& at_level(int level);
-  Path path(int level, double end);
+  TubeDiscrete& discrete_of(const BranchNode& node) const { return node.meshes->at(node.level); }
+  Path path(TubeDiscrete&, double end) const;
   ContinuationOptions continuation();
+  /// A mesh is fitted to the state of a node; false if that does not help.
+  bool fit(BranchNode&);
+  /// The state at `u` from a guess; not converged if there is none, or it is wrinkled.
+  Status solve(TubeDiscrete&, double u, double tolerance, VectorXd& unknowns);
   void measure_with_slopes(BranchNode&, const Scales&);
   double error_of(const BranchNode&);
-  /// At the level of b.
+  /// On the mesh of b.
   VectorXd cubic_between(const BranchNode& a, const BranchNode& b, double part);
-  /// From one level to another.
-  VectorXd carried(const VectorXd& unknowns, int from, int to);
-  ShapeMeasures shape(int level, const VectorXd& unknowns);
-  double progress(int level, const VectorXd& unknowns);
+  double progress(const TubeDiscrete&, const VectorXd& unknowns) const;
   void count(int iterations);
 
   TableSpec spec_;
@@ -93,8 +93,7 @@ class BranchStates {
   double axial_ratio_;  ///< that is wanted; the place's own is the one that is reached
   NewtonOptions newton_;
   double first_stiffness_ = 1;
-  std::array<std::unique_ptr<TubeDiscrete>, levels> discrete_;
-  double released_factorisation_ = 0;
+  std::vector<std::unique_ptr<BranchMeshes>> meshes_;  ///< the last one is that of the states ahead
   int solves_ = 0, newton_iterations_ = 0, refused_ = 0;
 };
 

@@ -126,7 +126,7 @@ class BranchSampler {
 
   void keep(BranchNode node) {
     nodes_.push_back(std::move(node));
-    states_.release_coarser_than(nodes_.back().level);
+    states_.release_coarser_than(nodes_.back());
   }
 
   /// At the farthest state of its resolution; otherwise the branch goes on at the next one.
