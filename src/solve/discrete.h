@@ -14,6 +14,9 @@ namespace rheocyte {
 /// with the media of the unknowns.
 class Discrete : public std::enable_shared_from_this<Discrete> {
  public:
+  /// A fit that gains less is not worth the change.
+  static constexpr double worthwhile = 1.2;
+
   explicit Discrete(const Resolution& resolution) : resolution_(resolution) {}
   virtual ~Discrete() = default;
   Discrete(const Discrete&) = delete;
@@ -43,9 +46,9 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   /// The same, with the liquid's fields at the same places in space if the meshes round the same cell differ.
   virtual VectorXd carry_from(const Discrete& other, const VectorXd& unknowns) const = 0;
   /// At the same resolution with a mesh of the liquid that fits round the cell of a state. Elements on the surface are
-  /// those of this one (`evenly` = 0), or are moved that part of the way to where they are even. Nothing if that is
-  /// hardly better than this one.
-  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, double evenly) const;
+  /// those of this one (`evenly` = 0), or are moved that part of the way to where they are even. Nothing if neither the
+  /// quality of the mesh nor the evenness gains as much.
+  std::shared_ptr<Discrete> fitted(const VectorXd& unknowns, double evenly, double gain = worthwhile) const;
   /// Gives meshes that are fitted so, ever more like this one, with the state's unknowns carried to them, to
   /// `accept(discrete, guess)` until it takes one.
   template <class Accept>

@@ -14,8 +14,8 @@ struct WayPoint {
 };
 
 /// `go(pauses)` goes on as far as possible or, if it pauses, until the mesh is worn; `fit()` fits the mesh to the state
-/// there, or returns false. A mesh is fitted where the way pauses, and where it would end before `end`; once only at one
-/// place.
+/// there, or returns false. A mesh is fitted where the way pauses, and where it would end before `end`; once only at
+/// one place.
 template <class Go, class Fit>
 void fit_on_the_way(double end, const Go& go, const Fit& fit) {
   double fitted_at = -HUGE_VAL;

@@ -22,9 +22,9 @@ struct CoarseWay {
 struct Rungs {
   Subdivision subdivision;
   int first_degree, last_degree;
-  bool only_begins = false;  ///< neighbouring degrees agree on this mesh although both are wrong
+  bool only_begins = false;       ///< neighbouring degrees agree on this mesh although both are wrong
   bool is_rough_at_rims = false;  ///< the same if the mesh was fitted to a dented cell
-  bool goes_on = false;      ///< from the rungs on coarser meshes, rather than anew
+  bool goes_on = false;           ///< from the rungs on coarser meshes, rather than anew
 };
 
 struct Geometry {

@@ -153,7 +153,7 @@ ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double 
   return state;
 }
 
-ResolvedState ResolvedBranch::settled(std::shared_ptr<Discrete> discrete, double compliance, VectorXd guess,
+ResolvedState ResolvedBranch::settled(const std::shared_ptr<Discrete>& discrete, double compliance, VectorXd guess,
                                       const NewtonOptions& options) {
   ResolvedState state = solved(discrete, compliance, guess, options);
   if (state.status == Status::converged || state.status == Status::stopped) return state;
@@ -177,7 +177,11 @@ ResolvedState ResolvedBranch::carried(const ResolvedState& from, const Resolutio
       guess = fitted->carry_from(*discrete, guess);
       discrete = fitted;
     }
-  return settled(discrete, from.branch.parameter, std::move(guess), options);
+  ResolvedState found = settled(discrete, from.branch.parameter, guess, options);
+  if (found.status == Status::converged || found.status == Status::stopped) return found;
+  // Elements that fit the surface otherwise may do.
+  const auto even = discrete->is_fitted() ? discrete->fitted(guess, 1, 0) : nullptr;
+  return even ? settled(even, from.branch.parameter, even->carry_from(*discrete, guess), options) : found;
 }
 
 /// A state at another resolution: the last one, or one before it that Newton does not leave there; or the first one of

@@ -48,7 +48,7 @@ class ResolvedBranch {
   /// Newton at a compliance from a guess.
   ResolvedState solved(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
   /// The same from unknowns that were carried from another mesh (solve/settle.h).
-  ResolvedState settled(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
+  ResolvedState settled(const std::shared_ptr<Discrete>&, double compliance, VectorXd guess, const NewtonOptions&);
   /// The same state at another resolution.
   ResolvedState at_resolution(const ResolvedState& from, const Resolution&);
 

@@ -64,6 +64,9 @@ struct StateView {
 /// All numbers of a state, with its contour and its surface as finely as wanted.
 StateNumbers numbers_of(const StateView&, const Contour&, const SurfaceState&);
 
+/// Of the elements along the surface in a liquid.
+Spacing spacing_for(const Liquid&);
+
 /// Of a cell in a tube, and of its search.
 Geometry tube_geometry(const Problem&);
 

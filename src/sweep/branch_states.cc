@@ -176,8 +176,7 @@ Status BranchStates::solve(TubeDiscrete& discrete, double u, double to_tolerance
 
 BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
   const TubeDiscrete &fine = discrete_of(from), &coarse = from.meshes->at(from.level - 1);
-  BranchNode start =
-      unmeasured(from.u, *from.meshes, from.level - 1, coarse.transfer_from(fine, from.unknowns));
+  BranchNode start = unmeasured(from.u, *from.meshes, from.level - 1, coarse.transfer_from(fine, from.unknowns));
   if (from.tangent.size() > 0) start.tangent = coarse.transfer_from(fine, from.tangent);
   Way way = walk(start, u);
   const double reached = way.last.u;

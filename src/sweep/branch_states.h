@@ -61,7 +61,8 @@ class BranchStates {
   bool refine(BranchNode&);
   /// A part of the way between two measured nodes, in the compliance: of the cubic through their states.
   double log_progress_between(const BranchNode& a, const BranchNode& b, double part);
-  /// A state needs its own level and the one before, which determines its error; factors take some 100 MB on the others.
+  /// A state needs its own level and the one before, which determines its error; factors take some 100 MB on the
+  /// others.
   void release_coarser_than(const BranchNode&);
 
   int solves() const { return solves_; }

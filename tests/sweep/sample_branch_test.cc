@@ -88,8 +88,8 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
 }
 
 TEST(SampleBranch, ADentedBranchIsThatOfDirectSolves) {
-  // Cells with a cortex as soft as real ones: the mesh is fitted on the way, to d = 0.089, of which the tension makes 0.049,
-  // and a dent at the rear.
+  // Cells with a cortex as soft as real ones: the mesh is fitted on the way, to d = 0.089, of which the tension makes
+  // 0.049, and a dent at the rear.
   const TableSpec table =
       spec("[cell.bulk]\nlaw = \"neo-hookean\"\n[cell.cortex]\nlaw = \"neo-hookean\"\nbending_kBT = 1e4\n",
            "cortex_fraction = [0, 0.65]\ntension_ratio = [0.615]\naxial_ratio = [0, 0.3, 0.6, 0.86]\naccuracy = 1e-2\n"
