@@ -12,6 +12,7 @@
 #include "../robustness/run_program.h"
 #include "../table/invented_combined.h"
 #include "../table/invented_elongated_combined.h"
+#include "analytic/effective_modulus.h"
 #include "measurement/mask_from_outline.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
@@ -199,7 +200,8 @@ TEST_F(ModuliCommand, SaysInOneLineWhatARecordingHolds) {
   EXPECT_EQ(ended.out + ended.err, "");
   const Ended all = moduli({table_folder().string(), "--viscosity-mPas", "15"});
   EXPECT_TRUE(is_one_line(all.out)) << all.out;
-  for (const std::string words : {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1."})
+  for (const std::string words : {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1.",
+                                  "effective E median "})
     EXPECT_NE(all.out.find(words), std::string::npos) << words << "\n" << all.out;
 }
 
@@ -264,6 +266,14 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   EXPECT_LT(summary.at("stiffness_median_kPa_low"), summary.at("stiffness_median_kPa"));
   EXPECT_LT(summary.at("stiffness_median_kPa"), summary.at("stiffness_median_kPa_high"));
   EXPECT_NE(found.out.find(", the median of the population of "), std::string::npos) << found.out;
+  // E 1.8 kPa, cortex and tension 1.8 kPa and 0.25 of it times the radius.
+  const double effective = effective_modulus<double>({1.8, 1.8, 0.5, 0.45, 0, 1});
+  EXPECT_NEAR(summary.at("effective_modulus_median_kPa").get<double>() / effective, 1, 0.1);
+  EXPECT_LT(summary.at("effective_modulus_median_kPa_low"), effective);
+  EXPECT_LT(effective, summary.at("effective_modulus_median_kPa_high"));
+  EXPECT_NEAR(std::stod(rows[0].at("effective_modulus_kPa")), effective,
+              4 * std::stod(rows[0].at("effective_modulus_kPa_error")));
+  EXPECT_NE(found.out.find(" kPa (median; bulk, cortex and tension together)\n"), std::string::npos) << found.out;
   // Gates that leave no event, and a tension that no cell of the table has.
   const Ended none = moduli({folder.string(), "--viscosity-mPas", "12", "--min", "index=100"});
   EXPECT_EQ(none.exit_code, 3);
@@ -274,6 +284,7 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   const auto& median = summary.at("median_cell");
   EXPECT_EQ(median.at("cells"), events);
   EXPECT_NEAR(median.at("stiffness_kPa").get<double>() / 3.6, 1, 0.15);
+  EXPECT_NEAR(median.at("effective_modulus_kPa").get<double>() / effective, 1, 0.15);
   for (const auto& feature : median.at("features")) {
     const double error = feature.at("measured_error");
     EXPECT_NEAR(feature.at("measured").get<double>(), feature.at("fitted").get<double>(), 3 * error) << feature;
