@@ -200,8 +200,8 @@ TEST_F(ModuliCommand, SaysInOneLineWhatARecordingHolds) {
   EXPECT_EQ(ended.out + ended.err, "");
   const Ended all = moduli({table_folder().string(), "--viscosity-mPas", "15"});
   EXPECT_TRUE(is_one_line(all.out)) << all.out;
-  for (const std::string words : {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1.",
-                                  "effective E median "})
+  for (const std::string words :
+       {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1.", "effective E median "})
     EXPECT_NE(all.out.find(words), std::string::npos) << words << "\n" << all.out;
 }
 
