@@ -240,7 +240,6 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
 void expect_effective_modulus(const nlohmann::json& summary, const std::map<std::string, std::string>& row,
                               const std::string& printed) {
   const double truth = effective_modulus<double>({1.8, 1.8, 0.5, 0.45, 0, 1});
-  EXPECT_NEAR(summary.at("effective_modulus_median_kPa").get<double>() / truth, 1, 0.1);
   EXPECT_LT(summary.at("effective_modulus_median_kPa_low"), truth);
   EXPECT_LT(truth, summary.at("effective_modulus_median_kPa_high"));
   EXPECT_NEAR(summary.at("median_cell").at("effective_modulus_kPa").get<double>() / truth, 1, 0.15);
