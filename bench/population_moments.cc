@@ -39,18 +39,22 @@ struct Wanted {
 
 /// Of one recording: the means of the numbers of its cells, also of those that gates leave out.
 struct Truth {
-  double stiffness = 0, young = 0, cortex = 0, ratio = 0;
+  double stiffness = 0, effective = 0, young = 0, cortex = 0, ratio = 0;
   int cells = 0, without_shape = 0;
 
-  void add(const VirtualCell& cell) {
-    stiffness += std::log(cell.stiffness + cell.cortex_modulus_mN_per_m / cell.radius_um);
+  void add(const VirtualCell& cell, const CellsAtRest& at_rest) {
+    const double S = cell.stiffness + cell.cortex_modulus_mN_per_m / cell.radius_um;
+    effective += std::log(S * effective_modulus_over_stiffness<double>(
+                                  at_rest, {std::log(cell.radius_um), std::log(S), 1 - cell.stiffness / S,
+                                            cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m}));
+    stiffness += std::log(S);
     young += std::log(cell.stiffness);
     cortex += std::log(cell.cortex_modulus_mN_per_m);
     ratio += cell.tension_mN_per_m / cell.cortex_modulus_mN_per_m;
     ++cells;
   }
   void divide() {
-    for (double* const sum : {&stiffness, &young, &cortex, &ratio}) *sum /= cells;
+    for (double* const sum : {&stiffness, &effective, &young, &cortex, &ratio}) *sum /= cells;
   }
 };
 
@@ -62,6 +66,7 @@ class Recordings {
         simulated_(channel_flow_of(table_.spec.base)),
         moduli_(between_, simulated_, {features_of_contour(7), true, 0}),
         flow_{20, 0.04, wanted.viscosity, simulated_.exponent},
+        at_rest_(moduli_.at_rest().scaled(scale_factors(simulated_, flow_))),
         shapes_(table_, {simulated_, flow_}),
         log_area_{std::log(wanted.least_area), std::log(wanted.greatest_area)},
         wanted_(wanted) {}
@@ -76,7 +81,7 @@ class Recordings {
         ++truth.without_shape;
         continue;
       }
-      truth.add(cell);
+      truth.add(cell, at_rest_);
       const double along = random.uniform() - 0.5, across = random.uniform() - 0.5;
       const auto outline =
           displaced(silhouette(std::get<CellShape>(shape).meridian), {.deviation = wanted_.outline_noise}, random);
@@ -112,6 +117,7 @@ class Recordings {
   ChannelFlow simulated_;
   BulkCortexFit moduli_;
   ChannelFlow flow_;
+  CellsAtRest at_rest_;
   CombinedShapes shapes_;
   ValueGate log_area_;
   Wanted wanted_;
@@ -171,8 +177,7 @@ Wanted wanted_by(int argc, char** argv) {
 
 /// Standard error of a mean of logarithms, with what the table leaves of all events alike.
 double error_of(const CombinedPopulation& found, double CombinedLogs::*log) {
-  const CombinedVector slopes = slopes_of_mean(found.fit.parameters, log);
-  return std::sqrt(slopes.dot((found.fit.covariance + found.common_covariance) * slopes));
+  return number_of_law(found, log).error();
 }
 
 void print(int seed, const CombinedPopulation& found, const std::vector<Told>& all) {
@@ -203,11 +208,12 @@ int rheocyte::measure(int argc, char** argv) {
       fmt::print("recording {}: nothing found\n", seed);
       continue;
     }
-    const CombinedLogs logs = log_means(found.law);
+    const CombinedLogs logs = log_means(found.law, found.at_rest);
     constexpr int ratio = int(CombinedParameter::tension_ratio);
     const std::vector<Told> all{
         {"ln E", logs.young, truth.young, error_of(found, &CombinedLogs::young)},
         {"ln E2D", logs.cortex, truth.cortex, error_of(found, &CombinedLogs::cortex)},
+        {"ln E_eff", logs.effective, truth.effective, error_of(found, &CombinedLogs::effective)},
         {"ln S", logs.stiffness, truth.stiffness, error_of(found, &CombinedLogs::stiffness)},
         {"ln T", logs.axial, std::log(wanted.tension), error_of(found, &CombinedLogs::axial)},
         {"tension ratio", found.law.tension_ratio, truth.ratio,

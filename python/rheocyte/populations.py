@@ -22,8 +22,9 @@ class Population:
     comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio with its ends, p,
                     degrees_of_freedom, ln_ratio with its standard error, ratio_by_sampling_low and ..._high
 
-    With model="cortex" each quantity that is reported has these columns, with its unit: stiffness (E + E2D/r0), young_modulus,
-    cortex_modulus, cortex_tension, axial_tension (of the liquid); NaN where a recording does not tell it.
+    With model="cortex" each quantity that is reported has these columns, with its unit: stiffness (E + E2D/r0),
+    effective_modulus (bulk, cortex and tension together), young_modulus, cortex_modulus, cortex_tension, axial_tension (of
+    the liquid); NaN where a recording does not tell it.
     record          the dictionary of population.json
     """
 

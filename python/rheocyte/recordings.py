@@ -59,8 +59,8 @@ def moduli(recording, table=None, *, progress=None, **settings):
     progress        as for extract
 
     Returns a pandas.DataFrame: area_um2, deformation, viscosity_mPas, young_modulus_kPa, cortex_modulus_mN_per_m,
-    tension_mN_per_m and stiffness_kPa with their standard errors, chi_squared, status, section_factor (c3 over that in the
-    tube). attrs: settings, settings_hash, warnings.
+    tension_mN_per_m, stiffness_kPa and effective_modulus_kPa (bulk, cortex and tension together) with their standard
+    errors, chi_squared, status, section_factor (c3 over that in the tube). attrs: settings, settings_hash, warnings.
     """
     options = filled(native.ModuliOptions(), settings)
     options.table = path("" if table is None else table, "table")

@@ -40,13 +40,15 @@ MeasuredCell cell_of(const PopulationEvents& events, std::size_t i) {
 struct QuantityOfLaw {
   PopulationQuantity quantity;
   double CombinedLogs::*log;
+  bool is_of_parts;  ///< not known where bulk and cortex are not told apart
 };
 constexpr std::array quantities_of_law{
-    QuantityOfLaw{PopulationQuantity::stiffness, &CombinedLogs::stiffness},
-    QuantityOfLaw{PopulationQuantity::young_modulus, &CombinedLogs::young},
-    QuantityOfLaw{PopulationQuantity::cortex_modulus, &CombinedLogs::cortex},
-    QuantityOfLaw{PopulationQuantity::cortex_tension, &CombinedLogs::tension},
-    QuantityOfLaw{PopulationQuantity::axial_tension, &CombinedLogs::axial},
+    QuantityOfLaw{PopulationQuantity::stiffness, &CombinedLogs::stiffness, false},
+    QuantityOfLaw{PopulationQuantity::effective_modulus, &CombinedLogs::effective, false},
+    QuantityOfLaw{PopulationQuantity::young_modulus, &CombinedLogs::young, true},
+    QuantityOfLaw{PopulationQuantity::cortex_modulus, &CombinedLogs::cortex, true},
+    QuantityOfLaw{PopulationQuantity::cortex_tension, &CombinedLogs::tension, true},
+    QuantityOfLaw{PopulationQuantity::axial_tension, &CombinedLogs::axial, false},
 };
 
 QuantityEstimate estimate_of(const CombinedPopulation& found, const QuantityOfLaw& wanted, double wall_stress_Pa) {
@@ -101,9 +103,7 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
   std::vector<std::string> told, unknown;
   bool more_events_help = false;
   for (const QuantityOfLaw& wanted : quantities_of_law) {
-    const bool is_of_parts =
-        wanted.quantity != PopulationQuantity::stiffness && wanted.quantity != PopulationQuantity::axial_tension;
-    if (is_of_parts && !combined.not_told.empty()) continue;
+    if (wanted.is_of_parts && !combined.not_told.empty()) continue;
     const QuantityEstimate e = estimate_of(found, wanted, combined.wall_stress_Pa);
     const std::string symbol(words_of(wanted.quantity).symbol);
     (is_told(e) ? told : unknown).push_back(symbol);

@@ -9,6 +9,7 @@ QuantityWords words_of(PopulationQuantity quantity) {
   constexpr std::array<QuantityWords, std::size_t(PopulationQuantity::count)> words{{
       {"young_modulus", "kPa", "E", "kPa"},
       {"stiffness", "kPa", "E + E2D/r0", "kPa"},
+      {"effective_modulus", "kPa", "E_eff", "kPa"},
       {"cortex_modulus", "mN_per_m", "E2D", "mN/m"},
       {"cortex_tension", "mN_per_m", "tension", "mN/m"},
       {"axial_tension", "Pa", "axial tension", "Pa"},

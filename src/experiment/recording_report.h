@@ -19,7 +19,15 @@ namespace rheocyte {
 
 /// By what conditions are compared: numbers of cells whose logarithms have a mean and a spread in each recording. The
 /// tension is that of the cortex, the axial tension that of the liquid.
-enum class PopulationQuantity { young_modulus, stiffness, cortex_modulus, cortex_tension, axial_tension, count };
+enum class PopulationQuantity {
+  young_modulus,
+  stiffness,
+  effective_modulus,
+  cortex_modulus,
+  cortex_tension,
+  axial_tension,
+  count
+};
 struct QuantityWords {
   std::string_view name, suffix;  ///< of columns: the quantity, and its unit
   std::string_view symbol, unit;

@@ -29,7 +29,8 @@ bool is_neo_hookean(const Cell& cell) {
 
 CommonErrors relative_errors(const ModuliEstimate& e) {
   const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
-  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa};
+  return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa,
+          e.effective_modulus_error_kPa / e.effective_modulus_kPa};
 }
 
 }  // namespace

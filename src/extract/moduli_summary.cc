@@ -34,13 +34,15 @@ void ModuliTally::take(const ModuliEstimate& e) {
     young_.push_back(e.value(Modulus::young));
     cortex_.push_back(e.value(Modulus::cortex));
   }
-  if (e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart)
+  if (e.status == ModuliStatus::resolved || e.status == ModuliStatus::not_told_apart) {
     stiffness_.push_back(e.stiffness_kPa);
+    effective_modulus_.push_back(e.effective_modulus_kPa);
+  }
 }
 
 ModuliSummary ModuliTally::summary(const CommonErrors& of_single_cells, const LawOfCells& law) {
   const CommonErrors common =
-      law.is_found ? CommonErrors{law.young.error(), law.cortex.error(), no_value} : of_single_cells;
+      law.is_found ? CommonErrors{law.young.error(), law.cortex.error(), no_value, no_value} : of_single_cells;
   const auto with_common = [](const std::vector<double>& values, double relative) {
     Distribution d = distribution_of(values);
     if (std::isfinite(relative)) d.median_error = std::hypot(d.median_error, relative * d.median);
@@ -49,6 +51,8 @@ ModuliSummary ModuliTally::summary(const CommonErrors& of_single_cells, const La
   summary_.young_kPa = with_common(young_, common.young);
   summary_.cortex_mN_per_m = with_common(cortex_, common.cortex);
   summary_.stiffness_kPa = law.is_found ? distribution_of(law.stiffness) : with_common(stiffness_, common.stiffness);
+  summary_.effective_modulus_kPa =
+      law.is_found ? distribution_of(law.effective_modulus) : with_common(effective_modulus_, common.effective_modulus);
   return summary_;
 }
 
@@ -68,6 +72,8 @@ std::string in_one_line(const ModuliSummary& s) {
   std::string text = fmt::format("{} of {} events {}", s.resolved(), s.events(), name_of(ModuliStatus::resolved));
   if (s.resolved() > 0) text += range_text(s.young_kPa, "E", "kPa") + range_text(s.cortex_mN_per_m, "E2D", "mN/m");
   if (s.has_stiffness()) text += range_text(s.stiffness_kPa, "E + E2D/r0", "kPa");
+  if (s.has_stiffness() && !s.axial.is_of_elongated_cells)
+    text += range_text(s.effective_modulus_kPa, "effective E", "kPa");
   std::string others;
   for (int k = 0; k < moduli_status_count; ++k)
     if (const auto status = ModuliStatus(k); status != ModuliStatus::resolved && s.counts[std::size_t(k)] > 0)
@@ -102,6 +108,9 @@ std::string median_line(const ModuliSummary& s) {
 
 std::vector<std::string> lines_of(const ModuliSummary& s) {
   std::vector<std::string> lines = law_lines(s.axial);
+  if (s.axial.is_of_elongated_cells && s.has_stiffness())
+    lines.push_back(fmt::format("effective Young's modulus {} kPa (median; bulk, cortex and tension together)",
+                                median_text(s.effective_modulus_kPa)));
   for (const std::string& line : slope_lines(s.axial)) lines.push_back(line);
   if (std::string median = median_line(s); !median.empty()) lines.push_back(std::move(median));
   return lines;

@@ -16,7 +16,7 @@ namespace rheocyte {
 
 /// Relative standard errors that the moduli of all events of a recording share.
 struct CommonErrors {
-  double young = no_value, cortex = no_value, stiffness = no_value;
+  double young = no_value, cortex = no_value, stiffness = no_value, effective_modulus = no_value;
 };
 
 /// Errors of medians are those of the scatter between events and of what all have in common; those of a law are its
@@ -24,10 +24,11 @@ struct CommonErrors {
 struct ModuliSummary : RecordingFacts {
   std::array<std::size_t, moduli_status_count> counts{};  ///< by ModuliStatus
   Distribution young_kPa, cortex_mN_per_m;                ///< of the resolved events
-  Distribution stiffness_kPa;         ///< E + E2D / r0 by the law of the cells; without one, of all events that have it
-  double outline_noise_um = 0;        ///< as it was given
-  std::string settings_hash;          ///< events/settings_hash.h
-  std::vector<std::string> warnings;  ///< with the remarks on the recording
+  Distribution stiffness_kPa;  ///< E + E2D / r0 by the law of the cells; without one, of all events that have it
+  Distribution effective_modulus_kPa;  ///< likewise
+  double outline_noise_um = 0;         ///< as it was given
+  std::string settings_hash;           ///< events/settings_hash.h
+  std::vector<std::string> warnings;   ///< with the remarks on the recording
   AxialSummary axial;
   MedianCell median_cell;
 
@@ -35,8 +36,8 @@ struct ModuliSummary : RecordingFacts {
   template <class Self>
   static auto fields(Self& s) {
     return std::tuple_cat(RecordingFacts::fields(s),
-                          std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.outline_noise_um,
-                                   s.settings_hash, s.warnings, s.axial, s.median_cell));
+                          std::tie(s.counts, s.young_kPa, s.cortex_mN_per_m, s.stiffness_kPa, s.effective_modulus_kPa,
+                                   s.outline_noise_um, s.settings_hash, s.warnings, s.axial, s.median_cell));
   }
 
   std::size_t events() const;
@@ -55,7 +56,7 @@ class ModuliTally {
 
  private:
   ModuliSummary summary_;
-  std::vector<double> young_, cortex_, stiffness_;
+  std::vector<double> young_, cortex_, stiffness_, effective_modulus_;
 };
 
 /// What the medians are worth where fewer than half of the events that were fitted have a stiffness; else empty.
@@ -63,8 +64,8 @@ std::string missing_text(const ModuliSummary&);
 
 /// For the terminal: how many events are resolved, their moduli, and how many have another status.
 std::string in_one_line(const ModuliSummary&);
-/// By a table of elongated cells: the axial tension, the slopes between cells, and the median cell. Empty by another
-/// one.
+/// By a table of elongated cells: the axial tension, the effective modulus, the slopes between cells, and the median
+/// cell. Empty by another one.
 std::vector<std::string> lines_of(const ModuliSummary&);
 
 }  // namespace rheocyte

@@ -64,7 +64,7 @@ std::vector<int> features_of_contour(int last) {
 }
 
 BulkCortexFit::BulkCortexFit(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options)
-    : table_(table), simulated_(simulated), options_(std::move(options)) {
+    : table_(table), at_rest_(cells_at_rest(table.spec())), simulated_(simulated), options_(std::move(options)) {
   options_.free_tension = options_.free_tension && table.tension_ratios().size() > 1;
   if (table.tension_ratios().size() == 1) options_.tension_ratio = table.tension_ratios().front();
 }
@@ -181,8 +181,9 @@ ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow&
   const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
   estimate.modulus = estimate.modulus.cwiseProduct(factor);
   estimate.covariance = factor.asDiagonal() * estimate.covariance * factor.asDiagonal();
-  for (double* stress : {&estimate.stiffness_kPa, &estimate.stiffness_error_kPa, &estimate.axial_tension_Pa,
-                         &estimate.axial_tension_error_Pa})
+  for (double* stress :
+       {&estimate.stiffness_kPa, &estimate.stiffness_error_kPa, &estimate.effective_modulus_kPa,
+        &estimate.effective_modulus_error_kPa, &estimate.axial_tension_Pa, &estimate.axial_tension_error_Pa})
     *stress *= scale.modulus;
   return estimate;
 }
@@ -259,6 +260,9 @@ ModuliEstimate BulkCortexFit::estimate_of(ModuliMisfit& misfit, const Candidate&
   e.covariance = moduli.gradient * covariance * moduli.gradient.transpose();
   e.stiffness_kPa = moduli.stiffness;
   e.stiffness_error_kPa = error_of(moduli.stiffness_gradient);
+  const auto [effective_modulus, by_coordinates] = effective_modulus_kPa(at_rest_, best.cell, state);
+  e.effective_modulus_kPa = effective_modulus;
+  e.effective_modulus_error_kPa = error_of(by_coordinates);
   e.axial_tension_Pa = 1e3 * best.cell(x_axial) * moduli.stiffness;
   e.axial_tension_error_Pa = 1e3 * error_of(best.cell(x_axial) * moduli.stiffness_gradient +
                                             moduli.stiffness * CellCoordinates::Unit(x_axial));

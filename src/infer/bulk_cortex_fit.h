@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/channel_flow.h"
+#include "infer/cells_at_rest.h"
 #include "infer/moduli_estimate.h"
 #include "table/combined_interpolation.h"
 
@@ -58,6 +59,7 @@ class BulkCortexFit {
   ShapeVector shape_of(const CellCoordinates& cell, const ChannelFlow& flow) const;
   const CombinedInterpolation& table() const { return table_; }
   const ChannelFlow& simulated() const { return simulated_; }  ///< the table's channel
+  const CellsAtRest& at_rest() const { return at_rest_; }      ///< in that channel
   const std::vector<int>& features() const { return options_.features; }
   /// Features less parameters, the axial tension being known.
   int freedom() const;
@@ -80,6 +82,7 @@ class BulkCortexFit {
   ModuliEstimate estimate_of(ModuliMisfit& misfit, const Candidate& best) const;
 
   const CombinedInterpolation& table_;
+  CellsAtRest at_rest_;
   ChannelFlow simulated_;
   FitOptions options_;
 };

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "infer/cells_at_rest.h"
+
 namespace rheocyte {
 
 /// ln(r0 / um), ln of S = E + E2D / r0 (kPa), and the fraction of the cortex in S are normally distributed; so is the
@@ -51,16 +53,16 @@ struct CombinedLaw {
   double spread(int number) const { return root.row(number).norm(); }
 };
 
-/// ln of what users ask for: S (kPa), E (kPa), E2D (mN/m), the tension of the cortex (mN/m), and that of the liquid
-/// over the wall's shear stress. NaN where the mean cell has none.
+/// ln of what users ask for: S (kPa), the effective modulus (kPa), E (kPa), E2D (mN/m), the tension of the cortex
+/// (mN/m), and that of the liquid over the wall's shear stress. NaN where the mean cell has none.
 struct CombinedLogs {
-  double stiffness = 0, young = 0, cortex = 0, tension = 0, axial = 0;
+  double stiffness = 0, effective = 0, young = 0, cortex = 0, tension = 0, axial = 0;
 };
 /// Means over the cells, to the second order of the spreads.
-CombinedLogs log_means(const CombinedLaw& law);
+CombinedLogs log_means(const CombinedLaw& law, const CellsAtRest& cells);
 /// Slopes of one of these by the parameters.
-CombinedVector slopes_of_mean(const CombinedVector& parameters, double CombinedLogs::*log);
+CombinedVector slopes_of_mean(const CombinedVector& parameters, const CellsAtRest& cells, double CombinedLogs::*log);
 /// Standard deviations between cells, to the first order.
-CombinedLogs log_spreads(const CombinedLaw& law);
+CombinedLogs log_spreads(const CombinedLaw& law, const CellsAtRest& cells);
 
 }  // namespace rheocyte

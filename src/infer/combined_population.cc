@@ -166,6 +166,7 @@ class CombinedSearch {
 
   void tell() {
     found_.law = CombinedLaw::of(q_);
+    found_.at_rest = moduli_.at_rest().scaled(scale_factors(moduli_.simulated(), median_.flow));
     found_.features = model_.features();
     found_.mean_cell = model_.mean_cell(q_);
     found_.residual = found_.fit.measured.mean - found_.fit.fitted.mean;
@@ -202,9 +203,10 @@ ValueGate log_area_gate(double least_um2, double greatest_um2) {
 }
 
 NumberOfLaw number_of_law(const CombinedPopulation& population, double CombinedLogs::*log) {
-  const CombinedVector slopes = slopes_of_mean(population.fit.parameters, log);
-  return {log_means(population.law).*log, slopes.dot(population.fit.covariance * slopes),
-          log_spreads(population.law).*log, std::sqrt(slopes.dot(population.common_covariance * slopes))};
+  const CombinedVector slopes = slopes_of_mean(population.fit.parameters, population.at_rest, log);
+  return {log_means(population.law, population.at_rest).*log, slopes.dot(population.fit.covariance * slopes),
+          log_spreads(population.law, population.at_rest).*log,
+          std::sqrt(slopes.dot(population.common_covariance * slopes))};
 }
 
 LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress_Pa) {
@@ -216,6 +218,7 @@ LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress
           .misfit = fit.misfit / std::max(int(population.features.size()) - means, 1),
           .axial_tension = {population.law.axial_tension * wall_stress_Pa, std::sqrt(variance) * wall_stress_Pa},
           .stiffness = number_of_law(population, &CombinedLogs::stiffness),
+          .effective_modulus = number_of_law(population, &CombinedLogs::effective),
           .young = number_of_law(population, &CombinedLogs::young),
           .cortex = number_of_law(population, &CombinedLogs::cortex)};
 }

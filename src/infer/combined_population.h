@@ -32,6 +32,7 @@ struct SeenPopulation {
 struct CombinedPopulation {
   MomentFit fit;  ///< `parameters` are a CombinedVector
   CombinedLaw law;
+  CellsAtRest at_rest;  ///< in the channel and flow in which they are seen
   /// Of the parameters, by what all events have in common: table, section, and what these miss.
   Eigen::MatrixXd common_covariance;
   std::vector<int> features;            ///< that were fitted, of ShapeFeature
@@ -60,7 +61,7 @@ struct LawOfCells {
   std::size_t cells = 0;     ///< from which it follows, or would have followed
   double misfit = no_value;  ///< chi squared of the mean features per degree of freedom
   AxialTension axial_tension = AxialTension::unknown();
-  NumberOfLaw stiffness = {}, young = {}, cortex = {};  ///< kPa, kPa, mN/m
+  NumberOfLaw stiffness = {}, effective_modulus = {}, young = {}, cortex = {};  ///< kPa, but the last: mN/m
 };
 /// Of a population that was found.
 LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress_Pa);

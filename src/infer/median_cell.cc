@@ -47,6 +47,8 @@ MedianCell median_cell(const BulkCortexFit& moduli, const SeenCell& cell, const 
   found.cortex_mN_per_m = e.value(Modulus::cortex), found.cortex_error_mN_per_m = error_of(Modulus::cortex);
   found.tension_mN_per_m = e.value(Modulus::tension), found.tension_error_mN_per_m = error_of(Modulus::tension);
   found.stiffness_kPa = e.stiffness_kPa, found.stiffness_error_kPa = widening * e.stiffness_error_kPa;
+  found.effective_modulus_kPa = e.effective_modulus_kPa;
+  found.effective_modulus_error_kPa = widening * e.effective_modulus_error_kPa;
   found.axial_tension_Pa = e.axial_tension_Pa, found.axial_tension_error_Pa = widening * e.axial_tension_error_Pa;
   return found;
 }

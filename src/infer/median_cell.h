@@ -21,6 +21,7 @@ struct MedianCell {
   double cortex_mN_per_m = no_value, cortex_error_mN_per_m = no_value;
   double tension_mN_per_m = no_value, tension_error_mN_per_m = no_value;
   double stiffness_kPa = no_value, stiffness_error_kPa = no_value;  ///< E + E2D / r0
+  double effective_modulus_kPa = no_value, effective_modulus_error_kPa = no_value;
   double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;
   double chi_squared = no_value;
   int freedom = 0;

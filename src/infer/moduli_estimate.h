@@ -33,7 +33,8 @@ struct ModuliEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(no_value);
   std::array<bool, modulus_count> is_known{};  ///< standard error below `max_relative_error`
   double stiffness_kPa = no_value,
-         stiffness_error_kPa = stiffness_kPa;                             ///< E + E2D / r0
+         stiffness_error_kPa = stiffness_kPa;                                       ///< E + E2D / r0
+  double effective_modulus_kPa = no_value, effective_modulus_error_kPa = no_value;  ///< analytic/effective_modulus.h
   double axial_tension_Pa = no_value, axial_tension_error_Pa = no_value;  ///< of the liquid; 0 in tables of round cells
   CellCoordinates cell = CellCoordinates::Zero();                         ///< in the table's channel
   double chi_squared = no_value;

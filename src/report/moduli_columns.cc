@@ -38,7 +38,8 @@ const std::array<NamedModulus, modulus_count>& moduli() {
 
 std::string_view unit_text(const NamedModulus& named) { return named.modulus == Modulus::young ? "kPa" : "mN/m"; }
 
-constexpr const char* stiffness_label = "Stiffness E + E2D/r0";
+constexpr const char *stiffness_label = "Stiffness E + E2D/r0",
+                     *effective_label = "Effective Young's modulus of bulk, cortex and tension together";
 
 void append(ColumnsOf<ModuliBlock>& columns, const ColumnsOf<ModuliBlock>& more) {
   columns.insert(columns.end(), more.begin(), more.end());
@@ -64,6 +65,13 @@ ColumnsOf<ModuliBlock> estimate_columns() {
         of_estimates(&ModuliEstimate::stiffness_kPa)},
        {{.name = "stiffness_kPa_error", .unit = "kPa", .sentence = "standard error of it", .digits = digits_of_errors},
         of_estimates(&ModuliEstimate::stiffness_error_kPa)},
+       {{.name = "effective_modulus_kPa", .unit = "kPa", .sentence = effective_label, .digits = digits_of_values},
+        of_estimates(&ModuliEstimate::effective_modulus_kPa)},
+       {{.name = "effective_modulus_kPa_error",
+         .unit = "kPa",
+         .sentence = "standard error of it",
+         .digits = digits_of_errors},
+        of_estimates(&ModuliEstimate::effective_modulus_error_kPa)},
        {{.name = "chi_squared",
          .sentence = "how far the features are off, in their errors",
          .digits = digits_of_ratios},

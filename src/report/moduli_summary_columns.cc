@@ -8,6 +8,21 @@
 
 namespace rheocyte {
 
+namespace {
+
+/// And the 90 % interval of the median by the law of the cells.
+void add_quartiles_and_interval(ColumnList<ModuliSummary>& list, const DistributedQuantity& quantity,
+                                Distribution ModuliSummary::*of, NumberOfLaw LawOfCells::*by_law) {
+  add_quartiles(list, quantity, [of](const ModuliSummary& s) { return s.*of; });
+  const std::string median = quantity.column("median", "median").name;
+  list.add({median + "_low", quantity.unit, "", "lower end of its 90 % interval, by the population"},
+           [by_law](const ModuliSummary& s) { return median_interval(s.axial.law.*by_law).first; })
+      .add({median + "_high", quantity.unit, "", "upper end of it"},
+           [by_law](const ModuliSummary& s) { return median_interval(s.axial.law.*by_law).second; });
+}
+
+}  // namespace
+
 Columns<ModuliSummary> moduli_summary_columns() {
   using S = ModuliSummary;
   ColumnList<S> list;
@@ -21,14 +36,14 @@ Columns<ModuliSummary> moduli_summary_columns() {
   add_quartiles(
       list, {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
       [](const S& s) { return s.cortex_mN_per_m; });
-  add_quartiles(list,
-                {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0",
-                 "the stiffness of the population; without one, of all events that have one"},
-                [](const S& s) { return s.stiffness_kPa; });
-  list.add({"stiffness_median_kPa_low", "kPa", "", "lower end of its 90 % interval, by the population"},
-           [](const S& s) { return median_interval(s.axial.law.stiffness).first; })
-      .add({"stiffness_median_kPa_high", "kPa", "", "upper end of it"},
-           [](const S& s) { return median_interval(s.axial.law.stiffness).second; });
+  add_quartiles_and_interval(list,
+                             {"stiffness", "kPa", "kPa", "Stiffness E + E2D/r0",
+                              "the stiffness of the population; without one, of all events that have one"},
+                             &S::stiffness_kPa, &LawOfCells::stiffness);
+  add_quartiles_and_interval(list,
+                             {"effective_modulus", "kPa", "kPa", "Effective Young's modulus",
+                              "the Young's modulus of solids that a small tension elongates as much, likewise"},
+                             &S::effective_modulus_kPa, &LawOfCells::effective_modulus);
   list.add_with_interval(
           {"axial_tension_Pa", "Pa", "Axial tension of the liquid",
            "along the flow, that all cells have in common, with the 90 % interval"},
@@ -59,6 +74,8 @@ Columns<MedianCell> median_cell_columns() {
                       &M::tension_error_mN_per_m)
       .add_with_error({"stiffness_kPa", "kPa", "Stiffness E + E2D/r0", "of the median cell"}, &M::stiffness_kPa,
                       &M::stiffness_error_kPa)
+      .add_with_error({"effective_modulus_kPa", "kPa", "Effective Young's modulus", "of the median cell"},
+                      &M::effective_modulus_kPa, &M::effective_modulus_error_kPa)
       .add_with_error({"axial_tension_Pa", "Pa", "Axial tension of the liquid", "by the median cell alone"},
                       &M::axial_tension_Pa, &M::axial_tension_error_Pa)
       .add({"chi_squared", "", "Chi squared", "how far the features are off, in their errors"}, &M::chi_squared)

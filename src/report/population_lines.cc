@@ -130,6 +130,9 @@ std::string checks_line(const PopulationReport& report) {
 std::vector<std::string> population_lines(const PopulationReport& report) {
   std::vector<std::string> lines;
   for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
+  const auto quantities = report.quantities();
+  if (std::ranges::find(quantities, PopulationQuantity::effective_modulus) != quantities.end())
+    lines.emplace_back("E_eff: effective Young's modulus, of bulk, cortex and tension together");
   for (const auto& c : report.conditions)
     if (c.has_numbers() && c.quantities.front().stiffening) lines.push_back(stiffening_line(c));
   for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));

@@ -109,7 +109,8 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
 }
 
 CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
-    : radii_(distinct(table, [](const SweepPoint& place) { return place.radius_um; })),
+    : spec_(table.spec),
+      radii_(distinct(table, [](const SweepPoint& place) { return place.radius_um; })),
       fractions_(distinct(table, [](const SweepPoint& place) { return place.cortex_fraction; })),
       ratios_(table.spec.tension_ratios),
       axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {

@@ -56,6 +56,7 @@ class CombinedInterpolation {
   /// count little, at their ends before it; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
   bool is_inside(const CellCoordinates& cell) const;
+  const TableSpec& spec() const { return spec_; }
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }
   const std::vector<double>& tension_ratios() const { return ratios_; }
@@ -107,6 +108,7 @@ class CombinedInterpolation {
   bool sheet_reaches(int sheet, const CellCoordinates& cell) const;
   bool axial_reaches(int axial, const CellCoordinates& cell) const;
 
+  TableSpec spec_;
   std::vector<double> radii_, log_radii_, fractions_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
   std::vector<Curve> curves_;  ///< radius by radius, fraction by fraction, sheet by sheet
   CellBox box_;

@@ -12,7 +12,7 @@ namespace rheocyte {
 
 struct CombinedCell {
   /// {"table", "status", "sentence", "young_modulus_kPa", "cortex_modulus_mN_per_m", "tension_mN_per_m",
-  /// "stiffness_kPa", their errors, "chi_squared", "case"}; null where nothing was fitted.
+  /// "stiffness_kPa", "effective_modulus_kPa", their errors, "chi_squared", "case"}; null where nothing was fitted.
   nlohmann::ordered_json told;
   /// In um about the centroid of its hull, x along the flow, downstream; without rows where no cell of the table has
   /// such a shape.

@@ -12,6 +12,7 @@
 #include "../robustness/run_program.h"
 #include "../table/invented_combined.h"
 #include "../table/invented_elongated_combined.h"
+#include "analytic/effective_modulus.h"
 #include "measurement/mask_from_outline.h"
 #include "measurement/recording.h"
 #include "measurement/recording_writer.h"
@@ -199,7 +200,8 @@ TEST_F(ModuliCommand, SaysInOneLineWhatARecordingHolds) {
   EXPECT_EQ(ended.out + ended.err, "");
   const Ended all = moduli({table_folder().string(), "--viscosity-mPas", "15"});
   EXPECT_TRUE(is_one_line(all.out)) << all.out;
-  for (const std::string words : {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1."})
+  for (const std::string words :
+       {" of 40 events resolved, E median 0.", "E2D median ", "E + E2D/r0 median 1.", "effective E median "})
     EXPECT_NE(all.out.find(words), std::string::npos) << words << "\n" << all.out;
 }
 
@@ -234,6 +236,17 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
   EXPECT_NE(both.err.find("M2.rtdc: has neither contours nor masks"), std::string::npos) << both.err;
 }
 
+/// Of E 1.8 kPa, a cortex with as much over the radius and 0.25 of it as tension.
+void expect_effective_modulus(const nlohmann::json& summary, const std::map<std::string, std::string>& row,
+                              const std::string& printed) {
+  const double truth = effective_modulus<double>({1.8, 1.8, 0.5, 0.45, 0, 1});
+  EXPECT_LT(summary.at("effective_modulus_median_kPa_low"), truth);
+  EXPECT_LT(truth, summary.at("effective_modulus_median_kPa_high"));
+  EXPECT_NEAR(summary.at("median_cell").at("effective_modulus_kPa").get<double>() / truth, 1, 0.15);
+  EXPECT_NEAR(std::stod(row.at("effective_modulus_kPa")), truth, 4 * std::stod(row.at("effective_modulus_kPa_error")));
+  EXPECT_NE(printed.find(" kPa (median; bulk, cortex and tension together)\n"), std::string::npos) << printed;
+}
+
 TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   // 1000 Pa at twice the table's viscosity, found from forty pictures within a tenth; the tension stands in the table
   // of events and on the terminal, over the wall's shear stress (eq:wall-stress: 466.8 Pa), and can be given.
@@ -264,6 +277,7 @@ TEST_F(ModuliCommand, ARecordingOfElongatedCellsHasOneTension) {
   EXPECT_LT(summary.at("stiffness_median_kPa_low"), summary.at("stiffness_median_kPa"));
   EXPECT_LT(summary.at("stiffness_median_kPa"), summary.at("stiffness_median_kPa_high"));
   EXPECT_NE(found.out.find(", the median of the population of "), std::string::npos) << found.out;
+  expect_effective_modulus(summary, rows[0], found.out);
   // Gates that leave no event, and a tension that no cell of the table has.
   const Ended none = moduli({folder.string(), "--viscosity-mPas", "12", "--min", "index=100"});
   EXPECT_EQ(none.exit_code, 3);

@@ -51,6 +51,8 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
     expect_in(recording, "cortex_modulus_median_mN_per_m", cortex * below_mean);
     expect_in(recording, "cortex_tension_median_mN_per_m", 0.3 * cortex * below_mean);
     expect_in(recording, "axial_tension_median_Pa", 250);
+    expect_in(recording, "effective_modulus_median_kPa",
+              below_mean * effective_modulus<double>({2, cortex, 0.5, 0.3 * cortex, 0, 6.5}));
     EXPECT_NEAR(recording["radius_median_um"], 6.5, 0.1);
     EXPECT_TRUE(recording["bulk_and_cortex_not_told_because"].is_null());
     EXPECT_EQ(recording["section"], "tube") << "of the table's own cells";
@@ -59,6 +61,8 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
   for (const auto& comparison : all["comparisons"])
     if (comparison["quantity"] == "cortex_modulus") expect_in(comparison, "ratio", 0.67, "ratio_by_sampling");
   EXPECT_NE(ended.out.find("drug / control: E2D, ratio 0."), std::string::npos) << ended.out;
+  for (const char* const words : {"drug / control: E_eff, ratio 0.", "E_eff: effective Young's modulus, of bulk, "})
+    EXPECT_NE(ended.out.find(words), std::string::npos) << ended.out;
   EXPECT_TRUE(fs::exists(folder_.path() / "population" / "population.png")) << ended.err;
   EXPECT_NE(content_of(folder_.path() / "population" / "population.tsv").find("\tcortex_modulus_median_mN_per_m\t"),
             std::string::npos);

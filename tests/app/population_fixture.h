@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../robustness/run_program.h"
+#include "analytic/effective_modulus.h"
 
 namespace rheocyte::test::population_test {
 

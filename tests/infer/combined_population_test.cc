@@ -144,7 +144,7 @@ TEST_F(CombinedPopulationTest, BulkCortexAndTensionsComeBackFromPictures) {
       std::sqrt(found.fit.covariance(int(CombinedParameter::log_stiffness), int(CombinedParameter::log_stiffness))),
       0.08);
   EXPECT_LT(found.fit.misfit, 14) << "two degrees of freedom, 1 of 1000";
-  const CombinedLogs logs = log_means(found.law), true_logs = log_means(law);
+  const CombinedLogs logs = log_means(found.law, found.at_rest), true_logs = log_means(law, found.at_rest);
   EXPECT_NEAR(logs.young, true_logs.young, 0.25);
   EXPECT_NEAR(logs.cortex, true_logs.cortex, 0.12);
 }
@@ -292,6 +292,7 @@ TEST(CombinedLaw, MeansOfLogarithmsAreThoseOfManyCells) {
   law.mean << std::log(6.5), std::log(3.5), 0.44;
   law.tension_ratio = 0.3, law.ratio_spread = 0.03, law.axial_tension = 0.5, law.axial_spread = 0.05;
   law.root << 0.07, 0, 0, -0.02, 0.14, 0, -0.02, -0.02, 0.06;
+  const CellsAtRest at_rest{0.5, 0, 1.5};
   constexpr int cells = 100'000;
   CombinedLogs mean{}, square{};
   const auto add = [](double value, double& sum, double& squares) {
@@ -302,15 +303,19 @@ TEST(CombinedLaw, MeansOfLogarithmsAreThoseOfManyCells) {
     CellRandom random(1, std::uint64_t(i), Purpose::population);
     const Eigen::Vector3d z(random.normal(), random.normal(), random.normal());
     const Eigen::Vector3d x = law.mean + law.root * z;
-    const double cortex = x(0) + x(1) + std::log(x(2));
+    const double cortex = x(0) + x(1) + std::log(x(2)), ratio = law.tension_ratio + law.ratio_spread * random.normal();
+    const double E_eff = effective_modulus_over_stiffness<double>(at_rest, {x(0), x(1), x(2), ratio});
+    add(x(1) + std::log(E_eff), mean.effective, square.effective);
     add(x(1) + std::log(1 - x(2)), mean.young, square.young);
     add(cortex, mean.cortex, square.cortex);
-    add(cortex + std::log(law.tension_ratio + law.ratio_spread * random.normal()), mean.tension, square.tension);
+    add(cortex + std::log(ratio), mean.tension, square.tension);
   }
-  const CombinedLogs told = log_means(law), spread = log_spreads(law);
+  const CombinedLogs told = log_means(law, at_rest), spread = log_spreads(law, at_rest);
   EXPECT_NEAR(told.young, mean.young, 3e-3);
   EXPECT_NEAR(told.cortex, mean.cortex, 3e-3);
   EXPECT_NEAR(told.tension, mean.tension, 3e-3);
+  EXPECT_NEAR(told.effective, mean.effective, 3e-3);
+  EXPECT_NEAR(spread.effective, std::sqrt(square.effective - mean.effective * mean.effective), 0.01);
   EXPECT_NEAR(spread.young, std::sqrt(square.young - mean.young * mean.young), 0.01);
   EXPECT_NEAR(spread.cortex, std::sqrt(square.cortex - mean.cortex * mean.cortex), 0.01);
   EXPECT_NEAR(spread.tension, std::sqrt(square.tension - mean.tension * mean.tension), 0.01);

@@ -66,6 +66,13 @@ TEST(PopulationColumns, OfAQuantityHaveTheSameNamesForSolidsAndCellsWithACortex)
   }
 }
 
+TEST(PopulationColumns, OfTheEffectiveModulusAreThoseOfAnyQuantity) {
+  const auto cortex = report_of("cortex", {recording(PopulationQuantity::effective_modulus, 0)});
+  for (const auto& names : {names_of(recording_columns(cortex)), names_of(condition_columns(cortex))})
+    for (const char* const ending : {"", "_low", "_high"})
+      EXPECT_TRUE(names.contains(std::string("effective_modulus_median_kPa") + ending)) << ending;
+}
+
 /// Without an interval of its own, that of the normal law.
 TEST(PopulationColumns, OfAQuantityHaveItsMedianWithItsInterval) {
   auto own = recording(PopulationQuantity::young_modulus, 1);
