@@ -56,16 +56,25 @@ ModuliSummary ModuliTally::summary(const CommonErrors& of_single_cells, const La
   return summary_;
 }
 
-std::string missing_text(const ModuliSummary& s) {
+namespace {
+
+/// Events that were fitted and have no stiffness.
+std::size_t missing(const ModuliSummary& s) {
   const auto count = [&](ModuliStatus status) { return s.counts[std::size_t(status)]; };
-  const std::size_t missing = count(ModuliStatus::outside_table) + count(ModuliStatus::poor_fit),
-                    fitted = s.with_stiffness() + missing;
-  if (s.with_stiffness() == 0 || missing <= s.with_stiffness()) return {};
+  return count(ModuliStatus::outside_table) + count(ModuliStatus::poor_fit);
+}
+
+/// Whether medians of single cells are those of the minority that lies in the table.
+bool is_of_minority(const ModuliSummary& s) { return missing(s) > s.with_stiffness(); }
+
+}  // namespace
+
+std::string missing_text(const ModuliSummary& s) {
+  if (s.with_stiffness() == 0 || !is_of_minority(s)) return {};
   return fmt::format(
       "only {} of {} fitted events have a stiffness: medians of single cells are those of cells that happen to be in "
-      "the "
-      "table, not of all; report {}.",
-      s.with_stiffness(), fitted, s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
+      "the table, not of all; report {}.",
+      s.with_stiffness(), s.with_stiffness() + missing(s), s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
 }
 
 std::string in_one_line(const ModuliSummary& s) {
@@ -91,13 +100,14 @@ std::string median_line(const ModuliSummary& s) {
     return fmt::format("the median outline of {} cells: none of the table's cells has it", m.cells);
   return fmt::format(
       "the median outline of {} cells{}: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
-      "mN/m, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of the wall's shear stress{}",
+      "mN/m, effective Young's modulus {:.3g} +- {:.2g} kPa, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of the "
+      "wall's shear stress{}",
       m.cells,
       m.status == ModuliStatus::outside_table ? ", beyond the table, which is continued to it"
       : m.is_at_end                           ? ", at the end of the table, beyond which other cells may fit better"
                                               : "",
       m.young_kPa, m.young_error_kPa, m.cortex_mN_per_m, m.cortex_error_mN_per_m, m.tension_mN_per_m,
-      m.tension_error_mN_per_m, m.axial_tension_Pa, m.axial_tension_error_Pa,
+      m.tension_error_mN_per_m, m.effective_modulus_kPa, m.effective_modulus_error_kPa, m.axial_tension_Pa, m.axial_tension_error_Pa,
       m.axial_tension_Pa / s.axial.wall_stress_Pa, m.axial_tension_error_Pa / s.axial.wall_stress_Pa,
       m.freedom > 0 ? fmt::format("; chi2 {:.3g}, where {} +- {:.2g} is expected of one image of such a cell",
                                   m.chi_squared, m.freedom, std::sqrt(2.0 * m.freedom))
@@ -108,7 +118,7 @@ std::string median_line(const ModuliSummary& s) {
 
 std::vector<std::string> lines_of(const ModuliSummary& s) {
   std::vector<std::string> lines = law_lines(s.axial);
-  if (s.axial.is_of_elongated_cells && s.has_stiffness())
+  if (s.axial.is_of_elongated_cells && s.has_stiffness() && (s.axial.law.is_found || !is_of_minority(s)))
     lines.push_back(fmt::format("effective Young's modulus {} kPa (median; bulk, cortex and tension together)",
                                 median_text(s.effective_modulus_kPa)));
   for (const std::string& line : slope_lines(s.axial)) lines.push_back(line);
