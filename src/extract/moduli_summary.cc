@@ -74,7 +74,8 @@ std::string missing_text(const ModuliSummary& s) {
   return fmt::format(
       "only {} of {} fitted events have a stiffness: medians of single cells are those of cells that happen to be in "
       "the table, not of all; report {}.",
-      s.with_stiffness(), s.with_stiffness() + missing(s), s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
+      s.with_stiffness(), s.with_stiffness() + missing(s),
+      s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
 }
 
 std::string in_one_line(const ModuliSummary& s) {
@@ -100,15 +101,17 @@ std::string median_line(const ModuliSummary& s) {
     return fmt::format("the median outline of {} cells: none of the table's cells has it", m.cells);
   return fmt::format(
       "the median outline of {} cells{}: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
-      "mN/m, effective Young's modulus {:.3g} +- {:.2g} kPa, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of the "
+      "mN/m, effective Young's modulus {:.3g} +- {:.2g} kPa, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of "
+      "the "
       "wall's shear stress{}",
       m.cells,
       m.status == ModuliStatus::outside_table ? ", beyond the table, which is continued to it"
       : m.is_at_end                           ? ", at the end of the table, beyond which other cells may fit better"
                                               : "",
       m.young_kPa, m.young_error_kPa, m.cortex_mN_per_m, m.cortex_error_mN_per_m, m.tension_mN_per_m,
-      m.tension_error_mN_per_m, m.effective_modulus_kPa, m.effective_modulus_error_kPa, m.axial_tension_Pa, m.axial_tension_error_Pa,
-      m.axial_tension_Pa / s.axial.wall_stress_Pa, m.axial_tension_error_Pa / s.axial.wall_stress_Pa,
+      m.tension_error_mN_per_m, m.effective_modulus_kPa, m.effective_modulus_error_kPa, m.axial_tension_Pa,
+      m.axial_tension_error_Pa, m.axial_tension_Pa / s.axial.wall_stress_Pa,
+      m.axial_tension_error_Pa / s.axial.wall_stress_Pa,
       m.freedom > 0 ? fmt::format("; chi2 {:.3g}, where {} +- {:.2g} is expected of one image of such a cell",
                                   m.chi_squared, m.freedom, std::sqrt(2.0 * m.freedom))
                     : "");
