@@ -102,8 +102,7 @@ std::string median_line(const ModuliSummary& s) {
   return fmt::format(
       "the median outline of {} cells{}: E {:.3g} +- {:.2g} kPa, E2D {:.3g} +- {:.2g} mN/m, tension {:.3g} +- {:.2g} "
       "mN/m, effective Young's modulus {:.3g} +- {:.2g} kPa, axial tension {:.3g} +- {:.2g} Pa, {:.3g} +- {:.2g} of "
-      "the "
-      "wall's shear stress{}",
+      "the wall's shear stress{}",
       m.cells,
       m.status == ModuliStatus::outside_table ? ", beyond the table, which is continued to it"
       : m.is_at_end                           ? ", at the end of the table, beyond which other cells may fit better"

@@ -68,16 +68,16 @@ template <int dim>
 LocatedPoints<dim>::Place LocatedPoints<dim>::find(const Point& point) const {
   Found nearest;
   nearest.distance = std::numeric_limits<double>::infinity();
-  const auto look = [&](bool everywhere) {
+  const auto look = [&](bool in_box) {
     for (int e = 0; e < int(elements_.size()); ++e) {
-      if (boxes_[std::size_t(e)].contains(point) == everywhere) continue;
+      if (boxes_[std::size_t(e)].contains(point) != in_box) continue;
       const Found here = find_in(e, point);
       if (here.distance < nearest.distance) nearest = here;
       if (nearest.distance < inside * boxes_[std::size_t(e)].diagonal().norm()) return;
     }
   };
-  look(false);
-  if (std::isinf(nearest.distance)) look(true);
+  look(true);
+  if (std::isinf(nearest.distance)) look(false);
   return nearest.place;
 }
 

@@ -131,7 +131,7 @@ bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
   const auto before = state.discrete;
   return before->try_fitted(state.branch.unknowns, [&](const std::shared_ptr<Discrete>& discrete, VectorXd guess) {
     if (is_stopped()) return false;
-    ResolvedState found = settled(discrete, state.branch.parameter, std::move(guess), options);
+    ResolvedState found = solved(discrete, state.branch.parameter, std::move(guess), options, newton_or_settle);
     if (found.status != Status::converged || is_wrinkled(found)) return false;
     before->system().drop_factors();  // the trail keeps it
     found.branch.step = state.branch.step;
@@ -142,28 +142,14 @@ bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
 }
 
 ResolvedState ResolvedBranch::solved(std::shared_ptr<Discrete> discrete, double compliance, VectorXd guess,
-                                     const NewtonOptions& options) {
+                                     const NewtonOptions& options, FindState find) {
   ResolvedState state{.discrete = std::move(discrete), .branch = {compliance, std::move(guess), {}, 0}};
   const Metered metered(*this, state.discrete->system());
-  const NewtonReport report = newton(state.discrete->system(), media_(compliance), options, state.branch.unknowns);
+  const NewtonReport report = find(state.discrete->system(), media_(compliance), options, state.branch.unknowns);
   state.status = report.status;
   state.residual = report.residual;
   state.branch.newton_iterations = report.iterations;
   statistics_.newton_iterations += report.iterations;
-  return state;
-}
-
-ResolvedState ResolvedBranch::settled(const std::shared_ptr<Discrete>& discrete, double compliance, VectorXd guess,
-                                      const NewtonOptions& options) {
-  ResolvedState state = solved(discrete, compliance, guess, options);
-  if (state.status == Status::converged || state.status == Status::stopped) return state;
-  const Metered metered(*this, discrete->system());
-  ContinuationReport report = settle(discrete->system(), media_(compliance), std::move(guess), options);
-  statistics_.newton_iterations += report.newton_iterations;
-  state.status = report.status;
-  state.residual = report.residual;
-  state.branch.unknowns = std::move(report.last.unknowns);
-  state.branch.newton_iterations += report.newton_iterations;
   return state;
 }
 
@@ -177,11 +163,12 @@ ResolvedState ResolvedBranch::carried(const ResolvedState& from, const Resolutio
       guess = fitted->carry_from(*discrete, guess);
       discrete = fitted;
     }
-  ResolvedState found = settled(discrete, from.branch.parameter, guess, options);
+  ResolvedState found = solved(discrete, from.branch.parameter, guess, options, newton_or_settle);
   if (found.status == Status::converged || found.status == Status::stopped) return found;
   // Elements that fit the surface otherwise may do.
   const auto even = discrete->is_fitted() ? discrete->fitted(guess, 1, 0) : nullptr;
-  return even ? settled(even, from.branch.parameter, even->carry_from(*discrete, guess), options) : found;
+  if (!even) return found;
+  return solved(even, from.branch.parameter, even->carry_from(*discrete, guess), options, newton_or_settle);
 }
 
 /// A state at another resolution: the last one, or one before it that Newton does not leave there; or the first one of

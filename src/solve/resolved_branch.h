@@ -45,10 +45,11 @@ class ResolvedBranch {
   ContinuationOptions options(double min_step) const;
   /// A state that is not wrinkled.
   Accept smooth();
-  /// Newton at a compliance from a guess.
-  ResolvedState solved(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&);
-  /// The same from unknowns that were carried from another mesh (solve/settle.h).
-  ResolvedState settled(const std::shared_ptr<Discrete>&, double compliance, VectorXd guess, const NewtonOptions&);
+  /// How a state is found from a guess: Newton's method, or `newton_or_settle` from unknowns of another mesh.
+  using FindState = NewtonReport (*)(NonlinearSystem&, const Media&, const NewtonOptions&, VectorXd&);
+  /// At a compliance from a guess.
+  ResolvedState solved(std::shared_ptr<Discrete>, double compliance, VectorXd guess, const NewtonOptions&,
+                       FindState = newton);
   /// The same state at another resolution.
   ResolvedState at_resolution(const ResolvedState& from, const Resolution&);
 

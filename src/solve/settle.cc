@@ -70,4 +70,17 @@ ContinuationReport settle(NonlinearSystem& system, const Media& media, VectorXd 
   return continue_branch(path, options, std::move(first));
 }
 
+NewtonReport newton_or_settle(NonlinearSystem& system, const Media& media, const NewtonOptions& options,
+                              VectorXd& unknowns) {
+  const VectorXd guess = unknowns;
+  NewtonReport report = newton(system, media, options, unknowns);
+  if (report.status == Status::converged || report.status == Status::stopped) return report;
+  ContinuationReport settled = settle(system, media, guess, options);
+  report.status = settled.status;
+  report.residual = settled.residual;
+  report.iterations += settled.newton_iterations;
+  unknowns = std::move(settled.last.unknowns);
+  return report;
+}
+
 }  // namespace rheocyte

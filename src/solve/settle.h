@@ -8,4 +8,7 @@ namespace rheocyte {
 /// nothing. The report's last unknowns are the state, its parameter the fraction of the load that has faded.
 ContinuationReport settle(NonlinearSystem&, const Media&, VectorXd guess, const NewtonOptions&);
 
+/// Newton's method; where it misses, `settle`. The report is that of both.
+NewtonReport newton_or_settle(NonlinearSystem&, const Media&, const NewtonOptions&, VectorXd& unknowns);
+
 }  // namespace rheocyte

@@ -157,21 +157,15 @@ bool BranchStates::fit(BranchNode& node) {
 }
 
 Status BranchStates::solve(TubeDiscrete& discrete, double u, double to_tolerance, VectorXd& unknowns) {
-  const Media media = media_at(problem(u), 1);
+  const Problem here = problem(u);
   NewtonOptions options = newton_;
   options.tolerance = to_tolerance;
   VectorXd found = unknowns;
-  const NewtonReport report = newton(discrete.system(), media, options, found);
+  const auto find = here.cortex.bending > 0 ? newton_or_settle : newton;
+  const NewtonReport report = find(discrete.system(), media_at(here, 1), options, found);
   count(report.iterations);
-  Status status = report.status;
-  if (status != Status::converged && status != Status::stopped && problem(u).cortex.bending > 0) {
-    ContinuationReport settled = settle(discrete.system(), media, unknowns, options);
-    newton_iterations_ += settled.newton_iterations;
-    status = settled.status;
-    found = std::move(settled.last.unknowns);
-  }
-  if (status == Status::converged) unknowns = std::move(found);
-  return status;
+  if (report.status == Status::converged) unknowns = std::move(found);
+  return report.status;
 }
 
 BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {

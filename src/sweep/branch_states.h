@@ -80,7 +80,7 @@ class BranchStates {
   ContinuationOptions continuation();
   /// A mesh is fitted to the state of a node; false if that does not help.
   bool fit(BranchNode&);
-  /// The state at `u` from a guess; not converged if there is none, or it is wrinkled.
+  /// The state at `u` from a guess, which it takes the place of if it is found.
   Status solve(TubeDiscrete&, double u, double tolerance, VectorXd& unknowns);
   void measure_with_slopes(BranchNode&, const Scales&);
   double error_of(const BranchNode&);

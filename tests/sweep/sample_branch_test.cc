@@ -20,10 +20,14 @@ TableSpec spec(const std::string& cell, const std::string& table) {
 const std::string linear_solid = "[cell.bulk]\nlaw = \"linear\"\n";
 const std::string shell = "[cell.bulk]\nlaw = \"none\"\n[cell.cortex]\nlaw = \"neo-hookean\"\ntension_ratio = 0.1\n";
 
+StationaryState solved(const TableSpec& table, const SweepPoint& place, double stiffness, double accuracy) {
+  Problem problem = problem_of(case_at(table, place, stiffness));
+  problem.accuracy = accuracy;
+  return solve_stationary(problem);
+}
+
 double solved_deformation(const TableSpec& table, double radius_um, double stiffness) {
-  Problem problem = problem_of(case_at(table, {radius_um}, stiffness));
-  problem.accuracy = 1e-5;
-  const StationaryState state = solve_stationary(problem);
+  const StationaryState state = solved(table, {radius_um}, stiffness, 1e-5);
   EXPECT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
   return state.shape.deformation;
 }
@@ -72,9 +76,7 @@ TEST(SampleBranch, AnElongatedBranchIsThatOfDirectSolves) {
   EXPECT_GT(branch.at(0, Measure::deformation_raw), 0.015) << "by the tension alone, which makes no dents";
   for (const int i : {branch.samples() / 2, branch.samples() - 1}) {
     const double S = std::sqrt(branch.stiffness[std::size_t(i) - 1] * branch.stiffness[std::size_t(i)]);
-    Problem problem = problem_of(case_at(table, place, S));
-    problem.accuracy = 1e-4;
-    const StationaryState state = solve_stationary(problem);
+    const StationaryState state = solved(table, place, S, 1e-4);
     ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
     for (int k = 2; k <= 5; ++k) {
       const double direct = state.shape.modes[std::size_t(k - first_radius_mode)];
@@ -100,9 +102,7 @@ TEST(SampleBranch, ADentedBranchIsThatOfDirectSolves) {
   const int last = branch.samples() - 1;
   EXPECT_GT(branch.at(last, Measure::deformation_raw), branch.at(last, Measure::deformation) + 0.02) << "a dent";
   const double S = std::sqrt(branch.stiffness[std::size_t(last) - 1] * branch.stiffness[std::size_t(last)]);
-  Problem problem = problem_of(case_at(table, place, S));
-  problem.accuracy = 3e-3;
-  const StationaryState state = solve_stationary(problem);
+  const StationaryState state = solved(table, place, S, 3e-3);
   ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
   EXPECT_NEAR(interpolate(branch, Measure::deformation, S) / state.shape.deformation, 1, 5e-3);
   EXPECT_NEAR(interpolate(branch, Measure::mode_3, S), state.shape.modes[3 - first_radius_mode], 1e-3);
