@@ -183,10 +183,11 @@ Settings settings_of(PopulationOptions& o) {
   jobs.range = {1, 1024};
   return together(
       {of_type(
-           "MODEL", {"solid", "cortex"},
+           "MODEL", {"solid", "cortex", "effective"},
            setting("model", "Cells", &o.model,
-                   "what the cells are: solid, or cortex, solids in a shell under tension, drawn out by one tension "
-                   "of the liquid, for which bulk, cortex and tensions are found",
+                   "what the cells are: solid; effective, cells with a cortex in the proportions of HL60 cells, by "
+                   "their medians of area, deformation and inertia ratio; or cortex, for which outlines determine bulk, "
+                   "cortex and tensions",
                    "solid")),
        seen_section(o.section),
        of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},

@@ -7,6 +7,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "experiment/combined_populations.h"
+#include "experiment/effective_populations.h"
 #include "experiment/population_recordings.h"
 #include "experiment/solid_populations.h"
 
@@ -19,9 +20,14 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
           "rheocyte: --shared-spread is for solids; cells with a cortex have their spreads recording by recording.");
     return std::make_unique<CombinedPopulations>(options);
   }
+  if (options.model == "effective") {
+    if (options.shared_spread)
+      throw UserError("rheocyte: --shared-spread is for solids; --model effective takes the median cell alone.");
+    return std::make_unique<EffectivePopulations>(options);
+  }
   if (options.model.empty() || options.model == "solid") {
     if (options.section)
-      throw UserError("rheocyte: --section is for --model cortex; solids have tables of the square channel itself.");
+      throw UserError("rheocyte: --section is for --model cortex and effective; solids have tables of the square channel itself.");
     if (options.outline_noise_um.value_or(0) > 0 && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
       throw UserError(
           fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
@@ -29,7 +35,7 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
                       options.by));
     return std::make_unique<SolidPopulations>(options);
   }
-  throw UserError(fmt::format("rheocyte: --model {}: it must be solid or cortex.", one_line(options.model, 40)));
+  throw UserError(fmt::format("rheocyte: --model {}: it must be solid, cortex or effective.", one_line(options.model, 40)));
 }
 
 void check_events_of_population(const RecordingReport& report) {

@@ -9,6 +9,7 @@
 #include "events/events_beyond.h"
 #include "events/recording_facts.h"
 #include "experiment/population_check.h"
+#include "extract/effective_cell.h"
 #include "infer/combined_population.h"
 #include "numeric/no_value.h"
 #include "population/comparison.h"
@@ -83,6 +84,7 @@ struct RecordingReport : RecordingFacts {
   SingleImages images;
   std::vector<std::size_t> shrunken_events;  ///< number of the event, from 1 on, of each of fitted.shrunken
   std::optional<CombinedReport> combined;    ///< of cells with a cortex
+  std::optional<EffectiveCell> effective;    ///< of the median cell
 
   const QuantityEstimate* estimate(PopulationQuantity quantity) const;
   /// Inside the gates and with numbers.

@@ -144,12 +144,22 @@ ExtractSummary Extraction::summary() {
   add_soft_ends(s);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, conditions(), shape_tally_.judged());
+  if (s.shapes.has_effective_modulus()) add_effective_cell(s);
   s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
   if (comparison_.is_made()) s.warnings.push_back(comparison_.sentence(conditions().flow.exponent));
   if (events_.recording().has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
+}
+
+void Extraction::add_effective_cell(ExtractSummary& s) const {
+  ChannelFlow flow = conditions().flow;
+  flow.viscosity_mPas = s.mean_viscosity_mPas;
+  s.shapes.effective = effective_cell(tables_.proportioned(), shape_tally_.figures(), {flow, tables_.section()},
+                                      conditions().pixel_size_um);
+  add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), s.shapes.has_cortex_shapes(),
+                      s.shapes.effective);
 }
 
 // Where moduli end in the tables, for a bound of a median beyond them.

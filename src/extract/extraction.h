@@ -58,6 +58,7 @@ class Extraction {
   std::string settings_hash() const;
   std::string beyond_the_square() const;
   void add_soft_ends(ExtractSummary& summary) const;
+  void add_effective_cell(ExtractSummary& summary) const;
   void collect();
   /// Young's moduli of the events of a block, and what is said about them.
   struct Moduli {

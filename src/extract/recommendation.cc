@@ -51,12 +51,35 @@ double bound_of(const JudgedModulus& judged) {
   return std::isfinite(m.bound) || m.place == MedianPlace::above ? m.bound : judged.soft_end_kPa;
 }
 
+/// All events have a part in the medians.
+Recommendation effective_recommendation(const EffectiveCell& cell) {
+  Recommendation r{.reason = Reason::outside_table};
+  r.events.known = cell.events;
+  switch (cell.place) {
+    case EffectivePlace::inside:
+      r.way = RecommendedWay::effective, r.reason = Reason::effective, r.kPa = cell.effective_kPa;
+      r.events.place = MedianPlace::inside;
+      break;
+    case EffectivePlace::softer:
+      r.reason = Reason::beyond_table, r.bound_kPa = cell.softest_kPa;
+      r.events.place = MedianPlace::below;
+      break;
+    case EffectivePlace::unknown:
+    case EffectivePlace::longer:
+    case EffectivePlace::stiffer:
+    case EffectivePlace::other_size:
+    case EffectivePlace::ambiguous: break;
+  }
+  return r;
+}
+
 }  // namespace
 
 std::string_view code_of(RecommendationReason reason) {
-  constexpr std::array<std::string_view, 11> codes{
+  constexpr std::array<std::string_view, 12> codes{
       "model",  "shapes-unknown", "outlines",     "elongated",     "other-table",       "too-few-events",
-      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table"};
+      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table",
+      "effective"};
   return codes.at(static_cast<std::size_t>(reason));
 }
 
@@ -66,6 +89,8 @@ std::string_view Recommendation::bound() const {
 }
 
 Recommendation recommendation(const ShapeVerdict& v) {
+  if (v.has_effective_modulus() && v.effective.place != EffectivePlace::unknown && !v.is_creeping())
+    return effective_recommendation(v.effective);
   const JudgedWay choice = judged_way_of(v);
   const JudgedModulus& judged = choice.way == RecommendedWay::deformation ? v.by_deformation : v.by_elongation;
   const CensoredMedian& median = judged.median_kPa;

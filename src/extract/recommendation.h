@@ -11,7 +11,7 @@ namespace rheocyte {
 /// Fewer events have no recommended number.
 inline constexpr std::size_t min_events_of_recommendation = 20;
 
-enum class RecommendedWay { none, deformation, elongated };
+enum class RecommendedWay { none, deformation, elongated, effective };
 
 /// Why this number, or why none.
 enum class RecommendationReason {
@@ -25,7 +25,8 @@ enum class RecommendationReason {
   creeping,        ///< the shapes change along the channel as those of cells that creep
   beyond_table,    ///< the median lies beyond one end of the table: there is a bound
   outside_table,   ///< too few events have a modulus, and not on one side
-  no_table         ///< the cells are elongated, and there is no table of elongated cells for this channel
+  no_table,        ///< the cells are elongated, and there is no table of elongated cells for this channel
+  effective        ///< the cells are longer than the flow makes them: the effective modulus of the median cell
 };
 /// As in files: "model", "shapes-unknown", ...
 std::string_view code_of(RecommendationReason reason);

@@ -75,6 +75,49 @@ std::string_view solid_text(const ShapeVerdict& v) {
              : " It is the modulus of homogeneous solids: without outlines a cortex cannot be excluded.";
 }
 
+/// What is comparable with moduli of other programs.
+std::string by_deformation_text(const ShapeVerdict& v) {
+  const CensoredMedian& m = v.by_deformation.median_kPa;
+  if (m.place == MedianPlace::inside)
+    return fmt::format("Area and deformation alone, as in most publications, give {:.3g} kPa.", m.value);
+  return "Area and deformation alone give no median: too many events are beyond their table.";
+}
+
+std::string effective_text(const Recommendation& r, const ShapeVerdict& v) {
+  const EffectiveCell& cell = v.effective;
+  return fmt::format(
+      "report an effective Young's modulus of {} kPa (cell with the median area, deformation and inertia ratio of {} "
+      "events; errors: statistical; systematic (pixels, section, proportions and law of the cortex, inertia, cells off "
+      "the axis in height); viscosity, flow rate and pixel size are not included): the cells are longer than the flow "
+      "alone would make them. A homogeneous solid of this modulus is elongated equally by a small tension. With the "
+      "proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial tension is {} Pa, {:.2g} of "
+      "the wall shear stress. {}",
+      text_with_errors(r.kPa, 3), cell.events, text_with_errors(cell.stiffness_kPa, 3),
+      text_with_errors(cell.axial_tension_Pa, 3), cell.axial_tension_Pa.value / cell.wall_stress_Pa,
+      by_deformation_text(v));
+}
+
+std::string effective_bound_text(const Recommendation& r, const ShapeVerdict& v) {
+  if (std::isfinite(r.bound_kPa))
+    return fmt::format(
+        "no modulus is recommended, only a bound: the cell with the median area, deformation and inertia ratio of {} "
+        "events is softer than the softest cell of its size in the table, whose effective Young's modulus is {:.3g} "
+        "kPa.",
+        v.effective.events, r.bound_kPa);
+  if (v.effective.place == EffectivePlace::ambiguous)
+    return fmt::format(
+        "no modulus is recommended: cells of different stiffness have the median area, deformation and inertia ratio of "
+        "these {} events, because they are long and hardly asymmetric. `rheocyte moduli` takes their outlines.",
+        v.effective.events);
+  const std::string_view what = v.effective.place == EffectivePlace::longer       ? "longer than the cells"
+                                : v.effective.place == EffectivePlace::other_size ? "not of the sizes"
+                                                                                  : "stiffer than the cells";
+  return fmt::format(
+      "no modulus is recommended: the cell with the median area, deformation and inertia ratio of {} events is {} of "
+      "the table.",
+      v.effective.events, what);
+}
+
 std::string number_text(const Recommendation& r, const ShapeVerdict& v) {
   const std::string report = report_text(r, v);
   switch (r.reason) {
@@ -147,6 +190,9 @@ std::string maxima_text(const DensityMaxima& log_maxima) {
 
 std::string recommendation_text(const Recommendation& r, const ShapeVerdict& v) {
   if (r.events.all() == 0 && v.judged == 0) return {};
+  if (r.reason == Reason::effective) return effective_text(r, v);
+  if (v.has_effective_modulus() && v.effective.place != EffectivePlace::unknown && r.reason != Reason::creeping)
+    return effective_bound_text(r, v);
   return r.way == RecommendedWay::none ? none_text(r, v) : number_text(r, v) + maxima_text(r.log_maxima);
 }
 

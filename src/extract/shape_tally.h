@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "extract/effective_cell.h"
 #include "extract/shape_verdict.h"
 #include "infer/modulus_state.h"
 #include "infer/shape_excess.h"
@@ -50,7 +51,7 @@ struct JudgedShapes {
   std::vector<double> inertia_ratio, area_um2, deformation;
 };
 
-/// Takes block by block; keeps 80 bytes per event.
+/// Takes block by block; keeps 104 bytes per event.
 class ShapeTally {
  public:
   void take(const JudgedEvents& events);
@@ -59,6 +60,8 @@ class ShapeTally {
   BesideAxis beside_axis(int direction, const ChannelFlow& flow) const;
   JudgedShapes judged() const;
   SofterCells softer() const;
+  /// Of all events with area, deformation and inertia ratio, red cells apart, whether or not a table has such cells.
+  const EventFigures& figures() const { return figures_; }
 
  private:
   struct Event {
@@ -75,7 +78,9 @@ class ShapeTally {
   std::vector<Drawn> drawn_;
   std::size_t elongated_ = 0, red_cells_ = 0;
   void take_moduli(const JudgedEvents& events, std::size_t event);
+  void take_figure(const JudgedEvents& events, std::size_t event);
   SidedModuli by_deformation_, by_elongation_;
+  EventFigures figures_;
   std::vector<double> softer_areas_;
   std::vector<ElongatedCell> softer_cells_;
 };

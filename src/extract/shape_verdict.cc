@@ -22,13 +22,6 @@ double max_excess_of_the_model(const Median& excess) {
   return std::min(of_the_model + 2 * excess.error, still_doubtful);
 }
 
-Median median_with_error(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return {no_value, no_value};
-  const CountedSample<double> sample(values);
-  return {sample.quantile(0.5), error_of_median(sample)};
-}
-
 bool Trend::is_changing() const { return std::abs(change) > 3 * error && std::abs(change) > 0.05 * std::abs(median); }
 
 double ShapeVerdict::elongated_percent() const {
@@ -47,6 +40,12 @@ ShapeVerdict::Fit ShapeVerdict::fit() const {
 
 bool ShapeVerdict::has_cortex_shapes() const {
   return with_elongation >= fewest_for_a_verdict && are_of_cortex({asymmetry, radius_px, cortex_mode_4, cortex_mode_5});
+}
+
+bool ShapeVerdict::has_effective_modulus() const {
+  if (has_cortex_shapes()) return true;
+  const bool are_outlines_of_solids = elongated_by == ElongatedBy::modes && with_elongation >= fewest_for_a_verdict;
+  return fit() == Fit::elongated && !are_outlines_of_solids;
 }
 
 GrowthOfAsymmetry growth_of_asymmetry(const ShapeVerdict& v) {

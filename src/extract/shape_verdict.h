@@ -8,24 +8,14 @@
 
 #include "extract/beside_axis.h"
 #include "extract/distribution.h"
+#include "extract/effective_cell.h"
 #include "extract/elongation_values.h"
+#include "extract/median.h"
 #include "numeric/censored_median.h"
 #include "numeric/density_maxima.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
-
-/// Median and its standard error, 1.25 robust sigma / sqrt(n); NaN without values.
-struct Median {
-  double value = no_value, error = no_value;
-  double common_error = no_value;  ///< by what all events share (common_errors.h), where that is known
-
-  /// For store/bytes.h.
-  template <class Self>
-  static auto fields(Self& s) {
-    return std::tie(s.value, s.error, s.common_error);
-  }
-};
 
 inline constexpr std::size_t fewest_for_a_trend = 20;  ///< events
 inline constexpr double least_length_of_trend_um = 15;
@@ -37,9 +27,6 @@ struct Trend {
   /// Whether it changes by more than chance and by more than a twentieth of itself.
   bool is_changing() const;
 };
-
-/// 1.25 robust sigma / sqrt(n) beside the median of the finite values; NaN where there are too few.
-Median median_with_error(std::vector<double> values);
 
 /// Up to this median of the excess the shapes count as those of the model: few events may lie above by chance.
 double max_excess_of_the_model(const Median& excess);
@@ -99,6 +86,7 @@ struct ShapeVerdict {
   double asymmetry = no_value;      ///< median of c_3
   double radius_px = no_value;      ///< of the circle with the median area, where the size of the pixels is known
   Median elongation, axial_tension_Pa;
+  EffectiveCell effective;  ///< of cells that are longer than the flow makes them
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
 
@@ -110,7 +98,7 @@ struct ShapeVerdict {
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
                     s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
                     s.with_elongation, s.modulus_ratio, s.asymmetry, s.radius_px, s.elongation, s.axial_tension_Pa,
-                    s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.effective, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;
@@ -121,6 +109,9 @@ struct ShapeVerdict {
   std::string text() const;
   /// Whether the outlines have the flat rear and the straight flanks of cells with a cortex, which no solid has.
   bool has_cortex_shapes() const;
+  /// Whether the effective modulus is theirs: they are longer than the flow makes them, and their outlines, where there
+  /// are some, do not show that they are solids.
+  bool has_effective_modulus() const;
   /// Whether the shapes change along the channel as those of cells that creep, by so much that no modulus follows.
   bool is_creeping() const;
   /// "settled", "still changing", or why that is unknown, with numbers; of an asymmetry that changes, whether cells

@@ -91,7 +91,15 @@ ShapeVector BulkCortexFit::shape_of(const CellCoordinates& cell, const ChannelFl
   return shape;
 }
 
-int BulkCortexFit::freedom() const { return int(options_.features.size()) - (options_.free_tension ? 4 : 3); }
+int BulkCortexFit::freedom() const {
+  constexpr int size_and_stiffness = 2;
+  return int(options_.features.size()) - size_and_stiffness - (has_free_fraction() ? 1 : 0) -
+         (options_.free_tension ? 1 : 0);
+}
+
+bool BulkCortexFit::has_free_fraction() const {
+  return table_.box().least(x_fraction) < table_.box().greatest(x_fraction);
+}
 
 double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const ChannelFlow& flow) const {
   return 1e3 * cell(x_axial) * std::exp(table_.at(cell).value(log_stiffness_row)) *
@@ -103,7 +111,7 @@ double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const Channe
 BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
                                                      Fraction fraction) const {
   std::vector<int> free{x_radius, x_progress};
-  if (fraction == Fraction::fitted) free.push_back(x_fraction);
+  if (fraction == Fraction::fitted && has_free_fraction()) free.push_back(x_fraction);
   if (options_.free_tension) free.push_back(x_ratio);
   if (table_.is_elongated()) free.push_back(x_axial);
   CellCoordinates cell = start;
@@ -154,7 +162,8 @@ BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit) const {
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
-  for (const double place : {0.1, 0.5, 0.9}) {
+  const auto places = has_free_fraction() ? std::vector{0.1, 0.5, 0.9} : std::vector{0.5};
+  for (const double place : places) {
     start(x_fraction) = box.least(x_fraction) + place * (box.greatest(x_fraction) - box.least(x_fraction));
     minima.push_back(minimum_from(misfit, with_best_stiffness(misfit, start), Fraction::fitted));
   }
@@ -236,6 +245,7 @@ BulkCortexFit::Covariance BulkCortexFit::covariance_at(const ModuliMisfit& misfi
   Covariance information = misfit.information(cell);
   information.diagonal() += (prior_widths * widths(table_.box())).cwiseInverse().cwiseAbs2();
   std::vector<int> known;  // exactly
+  if (!has_free_fraction()) known.push_back(x_fraction);
   if (!options_.free_tension) known.push_back(x_ratio);
   if (!table_.is_elongated()) known.push_back(x_axial);
   for (const int x : known) {
@@ -276,7 +286,8 @@ ModuliEstimate BulkCortexFit::estimate_of(ModuliMisfit& misfit, const Candidate&
   } else if (best.chi_squared > freedom + 3 * std::sqrt(2 * freedom) + 9) {
     e.status = ModuliStatus::poor_fit;
   } else {
-    if (std::ranges::count(e.is_known, true) > 0) forget_what_others_deny(profile(misfit, best), e);
+    if (has_free_fraction() && std::ranges::count(e.is_known, true) > 0)
+      forget_what_others_deny(profile(misfit, best), e);
     const bool are_all_known = std::ranges::all_of(all_moduli, [&](Modulus m) {
       return e.is_known[std::size_t(m)] || (m == Modulus::tension && !options_.free_tension);
     });

@@ -70,6 +70,8 @@ class BulkCortexFit {
   /// In the table's channel and flow.
   ModuliMisfit misfit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension) const;
   double middle_ratio() const;  ///< of the table's tensions
+  /// Whether the table has cells of several fractions of the cortex.
+  bool has_free_fraction() const;
   CellCoordinates start_for(const MeasuredShape& shape) const;
   /// The start at which the features fit best of some whose stiffnesses differ, with the tension that is known.
   static CellCoordinates with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start);

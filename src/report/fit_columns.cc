@@ -58,7 +58,7 @@ void add_medians(ColumnList<Row>& list) {
 }  // namespace
 
 std::vector<ParameterRow> parameter_rows(const RecordingReport& r) {
-  if (!r.failure.empty()) return {};
+  if (!r.failure.empty() || r.effective) return {};
   return r.combined ? combined_rows(r.combined->found.fit) : solid_rows(r.fitted);
 }
 

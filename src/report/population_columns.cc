@@ -99,7 +99,7 @@ const Columns<CombinedReport>& combined_columns() {
 }
 
 double kept_fraction(const RecordingReport& r) {
-  if (!r.failure.empty()) return no_value;
+  if (!r.failure.empty() || r.effective) return no_value;
   return r.combined ? r.combined->found.kept_fraction : r.fitted.kept_fraction;
 }
 

@@ -38,7 +38,7 @@ ordered_json check_json(const MeasureCheck& check) {
 ordered_json recording_json(const Columns<RecordingReport>& columns, const RecordingReport& r) {
   ordered_json json = row_json(columns, r);
   json["parameters"] = rows_json(parameter_columns(), parameter_rows(r));
-  if (r.failure.empty() && !r.combined) {
+  if (r.failure.empty() && !r.combined && !r.effective) {
     json["covariance"] = covariance_json(r.fitted.covariance);
     json["moduli_of_single_images"] = images_json(r.images);
   }

@@ -17,13 +17,13 @@ using S = ExtractSummary;
 using R = Recommendation;
 
 std::string_view way_word(const R& r) {
-  constexpr std::array<std::string_view, 3> words{"none", "deformation", "elongated"};
+  constexpr std::array<std::string_view, 4> words{"none", "deformation", "elongated", "effective"};
   return words.at(static_cast<std::size_t>(r.way));
 }
 
 Columns<R> recommendation_columns() {
   ColumnList<R> list;
-  list.add({"modulus", "", "Recommended modulus", "\"none\", \"deformation\" or \"elongated\""}, way_word)
+  list.add({"modulus", "", "Recommended modulus", "\"none\", \"deformation\", \"elongated\" or \"effective\""}, way_word)
       .add_with_errors(
           {"young_modulus_median_kPa", "kPa", "Recommended E, median", "the modulus that is to be reported", "", 0,
            digits_of_values},

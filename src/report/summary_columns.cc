@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "report/distribution_columns.h"
+#include "report/effective_columns.h"
 #include "report/recommended_columns.h"
 #include "report/verdict_columns.h"
 
@@ -98,6 +99,7 @@ const Columns<S>& summary_columns() {
         recommended_columns(), [](const S& s) -> const S& { return s; }, start_of_recommended);
     add_counts(list);
     add_modulus(list);
+    list.add_of(effective_columns(), [](const S& s) { return s.shapes.effective; });
     list.add_of(elongation_summary_columns(), &S::shapes).add_of(verdict_columns(), &S::shapes);
     list.add_of(beside_axis_columns(), [](const S& s) { return s.shapes.beside_axis; });
     add_words(list);

@@ -13,6 +13,7 @@
 #include "shelf/find_table.h"
 #include "shelf/shipped_tables.h"
 #include "store/read_file.h"
+#include "table/combined_table.h"
 #include "table/origin_record.h"
 #include "table/table_files.h"
 
@@ -181,6 +182,18 @@ const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
       elongated_from_bytes(content_of_file(best->file, largest_elongated), best->file.string()), std::move(computed),
       std::move(measured));
   return &found->liquid;
+}
+
+std::vector<const ProportionedCells*> ModulusTables::proportioned() const {
+  if (proportioned_.empty()) {
+    const auto shipped = shipped_combined_tables();
+    for (const char* identifier : {"HL-2D-NH-26", "HL-2D-NHR-26"})
+      if (const auto found = shipped.find(identifier); found != shipped.end())
+        proportioned_.push_back(std::make_unique<const ProportionedCells>(read_combined_table(found->second)));
+  }
+  std::vector<const ProportionedCells*> all;
+  for (const auto& cells : proportioned_) all.push_back(cells.get());
+  return all;
 }
 
 const ShapeMap* ModulusTables::shapes(double flow_exponent) const {

@@ -9,6 +9,7 @@
 
 #include "infer/elongated_liquid.h"
 #include "infer/modulus_map.h"
+#include "infer/proportioned_cells.h"
 
 namespace rheocyte {
 
@@ -52,6 +53,11 @@ class ModulusTables {
   /// liquid, or that of the nearest one changed to it; null in the tube, and where there is none.
   const ElongatedLiquid* elongated(double flow_exponent) const;
 
+  /// Cells with a cortex, in the proportions of HL60 cells, for the effective modulus: by the laws of the cortex with
+  /// an energy per current area and per reference area; without the tables that come with the program none. UserError
+  /// if a table cannot be read.
+  std::vector<const ProportionedCells*> proportioned() const;
+
   /// Of all that can be used.
   std::vector<std::filesystem::path> files() const;
   /// Tables that come with the program for cells of other laws or in the other section, one for each kind of cells:
@@ -60,6 +66,7 @@ class ModulusTables {
 
   /// Whether they are the shipped ones of the square channel: those of the tube go on to greater deformations.
   bool are_square() const { return !given_ && section_ == Section::square; }
+  Section section() const { return section_; }
 
   /// True if rheocyte's own tables are used, of which areas are corrected and errors known.
   bool own() const { return !given_ || tables_.front().map->is_rheocyte_table(); }
@@ -94,6 +101,7 @@ class ModulusTables {
     Elongated(ElongatedContent content, std::unique_ptr<const ModulusMap> same,
               std::unique_ptr<const ModulusMap> other);
   };
+  mutable std::vector<std::unique_ptr<const ProportionedCells>> proportioned_;  ///< once they are needed
   mutable std::map<double, std::unique_ptr<const Elongated>> elongated_;  ///< by the exponent of the recording's liquid
   bool given_ = false;                                                    ///< the first one is the user's choice
 };

@@ -32,15 +32,17 @@ fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/r
       place, names, noun));
 }
 
-fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun) {
+/// `usual`: the identifier of the one that is taken where none is wanted.
+fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::string_view noun,
+                           const std::string& usual) {
   std::error_code error;
   if (!wanted.empty() && fs::exists(wanted, error)) return wanted;
   const auto shipped = table_files(tables_folder(), kind);
-  if (wanted.empty() && shipped.empty())
+  const auto found = shipped.find(wanted.empty() ? usual : wanted.string());
+  if (wanted.empty() && found == shipped.end())
     throw UserError(fmt::format(
         "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
         noun, tables_folder().string()));
-  const auto found = wanted.empty() ? shipped.begin() : shipped.find(wanted.string());
   if (found == shipped.end()) refuse(wanted.string(), kind, noun);
   return found->second;
 }
@@ -56,11 +58,11 @@ std::map<std::string, fs::path> shipped_combined_tables() { return table_files(t
 std::map<std::string, fs::path> shipped_dynamic_tables() { return table_files(tables_folder(), "dynamic"); }
 
 fs::path combined_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex");
+  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex", "HC-2D-EL-26");
 }
 
 fs::path dynamic_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "dynamic", "table of cells on their way");
+  return wanted_or_shipped(wanted, "dynamic", "table of cells on their way", "HE-chip-26");
 }
 
 }  // namespace rheocyte

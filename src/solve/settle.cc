@@ -7,7 +7,7 @@ namespace rheocyte {
 namespace {
 
 /// The first step in which the load fades, and the minimum one.
-constexpr double first_fading = 0.5, min_fading = 0.02;
+constexpr double first_fading = 0.5, min_fading = 0.1;
 
 /// At a fraction t of the way a load of 1 - t times the residual of the first unknowns balances it: they are a state at
 /// t = 0.

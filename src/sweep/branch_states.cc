@@ -15,8 +15,8 @@ namespace {
 constexpr double wanted_fraction = 0.5;
 /// Of Newton's method; on the level before, whose state only tells the error, less will do.
 constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
-/// Steps in u of states that the coarser mesh has and the finer one does not are halved down to this.
-constexpr double least_advance = 1e-3;
+/// Of bare surfaces, and of bent ones, whose meshes are fitted on the way: each try takes seconds there.
+constexpr double least_advance_of_bare = 1e-3, least_advance_of_bent = 0.01;
 /// Displacement of the first state, in r0; its deformation is some 1e-5.
 constexpr double first_displacement = 0.006;
 /// Step in u for slopes of the measures along the tangent.
@@ -34,6 +34,10 @@ BranchStates::BranchStates(const TableSpec& spec, const SweepPoint& place, const
 double BranchStates::log_progress(const BranchNode& node) const { return std::log(node.at(progress_of(spec_))); }
 double BranchStates::log_progress_slope(const BranchNode& node) const {
   return node.slope(int(progress_of(spec_))) / node.at(progress_of(spec_));
+}
+
+double BranchStates::least_advance() const {
+  return problem(0).cortex.bending > 0 ? least_advance_of_bent : least_advance_of_bare;
 }
 
 double BranchStates::power() const { return progress_of(spec_) == Measure::mode_3 ? 1 : 2; }
@@ -183,7 +187,7 @@ BranchStates::Way BranchStates::advance(const BranchNode& from, double u) {
   if (newton_.stop && *newton_.stop) return {Status::stopped, from};
   // Near its end the finer branch may have ended before.
   const double nearer = (from.u + reached) / 2;
-  return nearer - from.u > least_advance ? advance(from, nearer) : Way{Status::surface_unstable, from};
+  return nearer - from.u > least_advance() ? advance(from, nearer) : Way{Status::surface_unstable, from};
 }
 
 BranchStates::Way BranchStates::between(const BranchNode& a, const BranchNode& b, double u) {

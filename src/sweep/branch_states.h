@@ -37,6 +37,8 @@ class BranchStates {
   double log_progress_slope(const BranchNode& node) const;
   /// Of the compliance, to which the progress is proportional at first.
   double power() const;
+  /// Steps in u of states that the coarser mesh has and the finer one does not are halved down to this.
+  double least_advance() const;
 
   /// How a way along the branch ended, and the farthest state, not measured yet.
   struct Way {

@@ -12,7 +12,7 @@ namespace rheocyte {
 namespace {
 
 /// Steps of the samples in ln stiffness.
-constexpr double first_step = 1, first_regularised_step = 0.08, max_step = 1.6, min_step = 2e-3;
+constexpr double first_step = 1, first_regularised_step = 0.08, max_step = 1.6;
 /// So many states in a row may fail to be accurate before a branch is given up; each is nearer than the one before.
 constexpr int max_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
@@ -46,7 +46,7 @@ BranchEnd end_after(Status failure) {
 class BranchSampler {
  public:
   BranchSampler(const TableSpec& spec, const SweepPoint& place, const std::atomic<bool>* stop)
-      : spec_(spec), place_(place), stop_(stop), states_(spec, place, stop) {}
+      : spec_(spec), place_(place), stop_(stop), states_(spec, place, stop), min_step_(2 * states_.least_advance()) {}
 
   /// From the nearly undeformed sphere.
   SampledBranch from_sphere() {
@@ -71,13 +71,13 @@ class BranchSampler {
     if (!states_.refine(first) || !states_.measure(first)) return end_of(Status::accuracy_not_reached);
     nodes_.push_back(std::move(first));
     int unsampled = 0;  // states in a row that were not accurate
-    while (h > min_step / 2) {
+    while (h > min_step_ / 2) {
       const BranchNode& before = nodes_.back();
       BranchStates::Way way = next_state(h);
       if (way.status == Status::stopped) return end_of(way.status);
       BranchNode& next = way.last;
       const double moved = next.u - before.u;
-      if (next.state.value.size() == 0 && moved > min_step / 4 && !states_.measure(next)) {
+      if (next.state.value.size() == 0 && moved > min_step_ / 4 && !states_.measure(next)) {
         // One state may fail where its neighbours do not.
         if (++unsampled > max_unsampled) return end_of(Status::accuracy_not_reached);
         h = 0.6 * moved;
@@ -85,9 +85,9 @@ class BranchSampler {
       }
       unsampled = 0;
       if (way.status != Status::converged) failure_ = way.status;
-      const bool has_moved = moved > min_step / 4;
+      const bool has_moved = moved > min_step_ / 4;
       const double allowed = has_moved ? allowed_step(before, next) : h;
-      if (moved > excess * allowed && growth * allowed > min_step / 2) {
+      if (moved > excess * allowed && growth * allowed > min_step_ / 2) {
         h = growth * allowed;
         ahead_.push_back(std::move(next));
         continue;
@@ -98,7 +98,7 @@ class BranchSampler {
       if (failure_ == Status::converged || !ahead_.empty()) continue;
       if (const std::optional<BranchEnd> end = ends_here(failure_)) return *end;
       failure_ = Status::converged;
-      h = std::max(h, 4 * min_step);
+      h = std::max(h, 4 * min_step_);
     }
     return end_of(Status::branch_ended);
   }
@@ -107,7 +107,7 @@ class BranchSampler {
   /// goes.
   BranchStates::Way next_state(double h) {
     const BranchNode& before = nodes_.back();
-    h = std::max(min_step, std::min({h, distance_of_end(before), grown_step()}));
+    h = std::max(min_step_, std::min({h, distance_of_end(before), grown_step()}));
     if (ahead_.empty()) return states_.advance(before, before.u + h);
     if (ahead_.back().u - before.u > excess * h) {
       BranchStates::Way way = states_.between(before, ahead_.back(), before.u + h);
@@ -252,6 +252,7 @@ class BranchSampler {
   SweepPoint place_;
   const std::atomic<bool>* stop_;
   BranchStates states_;
+  double min_step_;  ///< of the samples, in ln stiffness
   std::vector<BranchNode> nodes_;
   std::vector<BranchNode> ahead_;       ///< measured, but too far away; the nearest one last
   Status failure_ = Status::converged;  ///< of the step beyond the farthest state

@@ -10,6 +10,7 @@
 
 #include "case/user_error.h"
 #include "numeric/hermite.h"
+#include "numeric/no_value.h"
 
 namespace rheocyte {
 
@@ -56,25 +57,22 @@ double CombinedInterpolation::growth(int row) const {
   return is_mode && order_of_mode(row - first_mode_row + min_mode) == 1 ? 1 : 0;
 }
 
-CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch) const {
-  constexpr int mode_3 = int(ShapeFeature::first_mode) + 3 - min_mode;
-  const int measure = is_elongated() ? mode_3 : int(ShapeFeature::deformation);
+CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranch& branch,
+                                                             double progress_of_unit) const {
+  constexpr int deformation = int(ShapeFeature::deformation);
   const double disc = std::numbers::pi * branch.place.radius_um * branch.place.radius_um;
-  // Of the stiffest cell: c_3 is in proportion to the compliance there.
-  const double mode_3_times_stiffness = branch.samples() > 0 ? branch.value(0, mode_3) * branch.stiffness_kPa[0] : 0;
   Curve curve;
   for (int i = 0; i < branch.samples(); ++i) {
     const auto value = branch.value.row(i), slope = branch.slope.row(i);
     const double stiffness = branch.stiffness_kPa[std::size_t(i)];
-    const double flow = value(measure), flow_slope = slope(measure) / flow;  // of the logarithm, over ln S
-    const double place = std::log(is_elongated() ? mode_3_times_stiffness / stiffness : flow);
-    const double place_slope = is_elongated() ? -1 : flow_slope;
+    const double flow = is_elongated() ? progress_of_unit / stiffness : value(deformation), place = std::log(flow);
+    const double place_slope = is_elongated() ? -1 : slope(deformation) / flow;  // over ln S
     if (!(flow > 0 && place_slope < 0) || (!curve.place.empty() && place <= curve.place.back())) break;
     Row g, g_slope;
     const auto scaled = [&](int row, double number, double number_slope) {
       const double unit = std::pow(flow, growth(row));
       g(row) = number / unit;
-      g_slope(row) = (number_slope / unit - growth(row) * flow_slope * g(row)) / place_slope;
+      g_slope(row) = number_slope / unit / place_slope - growth(row) * g(row);
     };
     const double area = value(int(ShapeFeature::area_um2));
     g(log_stiffness_row) = std::log(stiffness) + growth(log_stiffness_row) * place;
@@ -83,17 +81,16 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranc
     scaled(moment_ratio_row, value(int(ShapeFeature::moment_ratio)) - 1, slope(int(ShapeFeature::moment_ratio)));
     for (int k = 0; k < mode_count; ++k)
       scaled(first_mode_row + k, value(int(ShapeFeature::first_mode) + k), slope(int(ShapeFeature::first_mode) + k));
-    scaled(deformation_row, value(int(ShapeFeature::deformation)), slope(int(ShapeFeature::deformation)));
-    g(log_flow_row) = std::log(flow) - place;
-    g_slope(log_flow_row) = flow_slope / place_slope - 1;
+    scaled(deformation_row, value(deformation), slope(deformation));
     curve.place.push_back(place);
     curve.samples.push_back({g, g_slope});
   }
   return curve;
 }
 
-CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable& table,
-                                                             const SweepPoint& wanted) const {
+namespace {
+
+const CombinedBranch* branch_at(const CombinedTable& table, const SweepPoint& wanted) {
   const auto is_it = [&](const CombinedBranch& branch) {
     const auto& place = branch.place;
     return place.radius_um == wanted.radius_um && place.cortex_fraction == wanted.cortex_fraction &&
@@ -101,9 +98,25 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable
            (place.tension_ratio == wanted.tension_ratio || place.cortex_fraction == 0);
   };
   const auto found = std::ranges::find_if(table.branches, is_it);
-  if (found == table.branches.end()) return {};
-  Curve curve = curve_of(*found);
-  curve.branch = int(found - table.branches.begin());
+  return found == table.branches.end() ? nullptr : &*found;
+}
+
+/// Of the stiffest cell that no axial tension elongates, whose third mode is in proportion to the compliance: of the
+/// stiffness 1 kPa. NaN where there is none.
+double mode_3_of_unit(const CombinedTable& table, SweepPoint place) {
+  place.axial_ratio = 0;
+  const CombinedBranch* const round = branch_at(table, place);
+  return round && round->samples() > 0 ? round->value(0, feature_of_mode(3)) * round->stiffness_kPa[0] : no_value;
+}
+
+}  // namespace
+
+CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable& table,
+                                                             const SweepPoint& wanted) const {
+  const CombinedBranch* const found = branch_at(table, wanted);
+  if (!found) return {};
+  Curve curve = curve_of(*found, is_elongated() ? mode_3_of_unit(table, wanted) : no_value);
+  curve.branch = int(found - table.branches.data());
   curve.is_own = curve.place.size() > 1;
   return curve;
 }
@@ -114,10 +127,10 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
       fractions_(distinct(table, [](const SweepPoint& place) { return place.cortex_fraction; })),
       ratios_(table.spec.tension_ratios),
       axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {
-  if (radii_.size() < 2 || fractions_.size() < 2)
+  if (radii_.size() < 2)
     throw UserError(
-        fmt::format("{}: the combined table has branches of {} radii and {} fractions; it needs two of each.",
-                    table.spec.identifier, radii_.size(), fractions_.size()));
+        fmt::format("{}: the combined table has branches of {} radius; it needs two radii.", table.spec.identifier,
+                    radii_.empty() ? "no" : "one"));
   for (const double radius : radii_) log_radii_.push_back(std::log(radius));
   double least = -1e9, greatest = -1e9;
   for (const double axial : axial_ratios_)
@@ -168,7 +181,7 @@ bool CombinedInterpolation::reaches(int sheet, int fraction, const CellCoordinat
 
 bool CombinedInterpolation::sheet_reaches(int sheet, const CellCoordinates& cell) const {
   const int below = interval_of(fractions_, cell(x_fraction));
-  return reaches(sheet, below, cell) && reaches(sheet, below + 1, cell);
+  return reaches(sheet, below, cell) && (fractions_.size() == 1 || reaches(sheet, below + 1, cell));
 }
 
 bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell) const {
@@ -254,8 +267,8 @@ std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& 
 
 CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
   Row sum = Row::Zero();
-  Eigen::Matrix<double, inner_rows, coordinate_count> gradient =
-      Eigen::Matrix<double, inner_rows, coordinate_count>::Zero();
+  Eigen::Matrix<double, row_count, coordinate_count> gradient =
+      Eigen::Matrix<double, row_count, coordinate_count>::Zero();
   for (const auto& [curve, weight] : curve_weights(cell)) {
     const auto [value, slope] = along(*curve, cell(x_progress));
     sum += weight.value * value;
@@ -263,14 +276,12 @@ CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
     gradient.col(x_progress) += weight.value * slope;
   }
   // Back from what hardly varies to what is asked for.
-  CombinedState state{sum.head<row_count>(), gradient.topRows<row_count>(), is_inside(cell)};
-  Eigen::RowVector<double, coordinate_count> by_flow = gradient.row(log_flow_row);
-  by_flow(x_progress) += 1;
-  const double log_flow = sum(log_flow_row) + cell(x_progress);
+  CombinedState state{sum, gradient, is_inside(cell)};
   for (int row = log_area_row; row < row_count; ++row) {
-    const double power = growth(row), unit = std::exp(power * log_flow);
+    const double power = growth(row), unit = std::exp(power * cell(x_progress));
     state.value(row) *= unit;
-    state.gradient.row(row) = unit * state.gradient.row(row) + power * state.value(row) * by_flow;
+    state.gradient.row(row) *= unit;
+    state.gradient(row, x_progress) += power * state.value(row);
   }
   state.value(log_stiffness_row) -= growth(log_stiffness_row) * cell(x_progress);
   state.gradient(log_stiffness_row, x_progress) -= growth(log_stiffness_row);

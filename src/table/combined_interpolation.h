@@ -48,7 +48,7 @@ struct BranchWeight {
 /// there.
 class CombinedInterpolation {
  public:
-  /// At least two radii and two fractions, the same radii in all sheets; UserError otherwise.
+  /// At least two radii, the same in all sheets; UserError otherwise.
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
@@ -63,10 +63,7 @@ class CombinedInterpolation {
   bool is_elongated() const { return axial_ratios_.size() > 1; }
 
  private:
-  /// Also what the flow makes of the cell, by which other rows are divided: ln of its deformation, of elongated cells
-  /// of the third mode, less ln of the progress.
-  static constexpr int log_flow_row = row_count, inner_rows = row_count + 1;
-  using Row = Eigen::Matrix<double, inner_rows, 1>;
+  using Row = Eigen::Matrix<double, row_count, 1>;
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
     int branch = -1;      ///< of the table
@@ -85,10 +82,11 @@ class CombinedInterpolation {
     CellFunction weight;
   };
 
-  /// The power of what the flow makes of the cell with which a row grows at first; what is left varies little. Of the
+  /// The power of the progress with which a row grows at first; what is left varies little. Of the
   /// stiffness, that of one over the progress.
   double growth(int row) const;
-  Curve curve_of(const CombinedBranch& branch) const;
+  /// `progress_of_unit`: in a table of elongated cells the progress of a cell of 1 kPa.
+  Curve curve_of(const CombinedBranch& branch, double progress_of_unit) const;
   Curve curve_at(const CombinedTable& table, const SweepPoint& place) const;
   void fill_gaps();
   /// A sheet has one tension of the cortex and one axial ratio.

@@ -67,7 +67,7 @@ const std::array table = {
     key<&Spec::axial_ratios>({"table.axial_ratio", "",
                               "tensions of the liquid along the flow, flow.axial_tension_Pa, as fractions of the swept "
                               "stiffness: cells that are elongated; 0 must be among them",
-                              List{{-0.5, 2}, true}, absent}),
+                              List{{-0.5, 5}, true}, absent}),
     key<&Spec::elongation>({"table.elongated_by", "",
                             "what makes the cells of table.axial_ratio long: the tension, or the shape at rest "
                             "(cell.rest_aspect) into which that tension would draw a sphere where nothing flows",

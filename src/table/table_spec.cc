@@ -56,8 +56,10 @@ void check_combined(TableSpec& spec, const KeyReading& keys) {
   spec.stiffness_key = combined_stiffness;
   if (!has_bulk(keys) || !has_cortex(keys))
     keys.refuse(fractions, fmt::format("{} needs a law of the bulk and one of the cortex.", fractions));
-  if (spec.cortex_fractions.size() < 2)
-    keys.refuse(fractions, fmt::format("{} needs at least two fractions, such as [0, 0.5, 1].", fractions));
+  if (spec.cortex_fractions.size() < (spec.is_elongated() ? 1 : 2))
+    keys.refuse(fractions, fmt::format("{} needs at least two fractions, such as [0, 0.5, 1]; with table.axial_ratio "
+                                       "one.",
+                                       fractions));
   if (keys.has(tension_key))
     keys.refuse_stated(tension_key, fmt::format("does not go with {}; give {} instead", fractions, ratio_key));
   const auto exclude = [&](std::string_view one, std::string_view other) {

@@ -1,0 +1,100 @@
+#include "experiment/effective_populations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/user_error.h"
+#include "events/plausibility.h"
+
+namespace rheocyte {
+namespace {
+
+/// Red cells apart.
+EventFigures figures_of(const PopulationEvents& events) {
+  EventFigures figures;
+  for (std::size_t i = 0; i < events.events(); ++i) {
+    const double area = events.of(SeenMeasure::area_um2)[i], ratio = events.of(SeenMeasure::inertia_ratio)[i];
+    if (is_red_cell(ratio, area)) continue;
+    figures.area_um2.push_back(area);
+    figures.deformation.push_back(events.of(SeenMeasure::deformation)[i]);
+    figures.inertia_ratio.push_back(ratio);
+  }
+  return figures;
+}
+
+QuantityEstimate estimate_of(PopulationQuantity quantity, const Median& median, double spread) {
+  return {quantity,
+          {std::log(median.value), std::pow(median.error / median.value, 2)},
+          spread,
+          median.common_error / median.value};
+}
+
+std::string beyond_text(const EffectiveCell& cell) {
+  switch (cell.place) {
+    case EffectivePlace::softer:
+      return fmt::format(
+          "the cell with the median area, deformation and inertia ratio is softer than the softest of the table, whose "
+          "effective modulus is {:.3g} kPa.",
+          cell.softest_kPa);
+    case EffectivePlace::longer: return "the median cell is longer than the cells of the table.";
+    case EffectivePlace::stiffer: return "the median cell is stiffer or rounder than the cells of the table.";
+    case EffectivePlace::other_size: return "the median cell has not the size of the cells of the table.";
+    case EffectivePlace::ambiguous:
+      return "cells of different stiffness have the median area, deformation and inertia ratio: the cells are long and "
+             "hardly asymmetric. `rheocyte moduli` takes their outlines.";
+    default: return "the median cell has no modulus.";
+  }
+}
+
+}  // namespace
+
+EffectivePopulations::EffectivePopulations(const PopulationOptions& options)
+    : tables_(std::string(), options.section.value_or(Section::square)) {
+  if (!options.by.empty())
+    throw UserError(
+        fmt::format("rheocyte: --by {} and --model effective contradict each other: the effective modulus follows from "
+                    "area, deformation and inertia ratio. Leave --by out.",
+                    options.by));
+  if (!options.table.empty())
+    throw UserError("rheocyte: --table is not for --model effective, which takes the tables of the program.");
+  if (tables_.proportioned().empty())
+    throw UserError(
+        "rheocyte: the tables of --model effective (combined_HL-2D-NH-26.cbor) are missing; install the program again.");
+}
+
+std::string EffectivePopulations::systematic_errors(std::span<const RecordingReport> recordings) const {
+  double greatest = 0;
+  for (const RecordingReport& r : recordings)
+    if (const QuantityEstimate* e = r.estimate(PopulationQuantity::effective_modulus))
+      greatest = std::max(greatest, e->common_error);
+  return fmt::format(
+      "pixels, section, table, proportions and law of the cortex, cells off the axis in height {:.2g} % of {}; "
+      "viscosity model as docs/verification.md has it",
+      100 * greatest, words_of(PopulationQuantity::effective_modulus).symbol);
+}
+
+void EffectivePopulations::fit(const PopulationEvents& events, RecordingReport& r, const Watch&) {
+  const EventFigures figures = figures_of(events);
+  r.fitted_events = figures.area_um2.size();
+  check_events_of_population(r);
+  ChannelFlow flow = events.flow();
+  flow.viscosity_mPas = r.median_viscosity_mPas;
+  EffectiveCell& cell = r.effective.emplace(
+      effective_cell(tables_.proportioned(), figures, {flow, tables_.section()}, events.pixel_size_um));
+  if (!cell.is_found()) {
+    r.failure = beyond_text(cell);
+    r.is_beyond = cell.place == EffectivePlace::softer || cell.place == EffectivePlace::longer;
+    if (std::isfinite(cell.softest_kPa) && cell.place == EffectivePlace::softer)
+      r.bound = {PopulationQuantity::effective_modulus, std::log(cell.softest_kPa)};
+    return;
+  }
+  add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), false, cell);
+  r.quantities = {estimate_of(PopulationQuantity::effective_modulus, cell.effective_kPa, cell.spread),
+                  estimate_of(PopulationQuantity::stiffness, cell.stiffness_kPa, cell.spread),
+                  estimate_of(PopulationQuantity::axial_tension, cell.axial_tension_Pa, 0)};
+  r.log_radius = std::log(cell.radius_um);
+}
+
+}  // namespace rheocyte

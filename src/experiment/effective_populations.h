@@ -1,0 +1,25 @@
+// Recordings by the effective modulus of their median cell (docs/theory-extract.md, sec. "The effective modulus").
+#pragma once
+#include <string>
+
+#include "experiment/population_model.h"
+#include "shelf/modulus_tables.h"
+
+namespace rheocyte {
+
+class EffectivePopulations : public PopulationModel {
+ public:
+  /// UserError if the tables are missing, or what is asked needs solids.
+  explicit EffectivePopulations(const PopulationOptions& options);
+
+  std::string_view name() const override { return "effective"; }
+  std::string_view elongation_text() const override { return "by one axial tension of the liquid in each recording"; }
+  std::string table(const PopulationEvents&) override { return tables_.proportioned().front()->table().spec().identifier; }
+  std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
+  void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
+
+ private:
+  ModulusTables tables_;
+};
+
+}  // namespace rheocyte

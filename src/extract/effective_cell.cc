@@ -1,0 +1,124 @@
+#include "extract/effective_cell.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "extract/common_errors.h"
+#include "numeric/quantile.h"
+
+namespace rheocyte {
+
+namespace {
+
+/// Of the scatter about the medians, what lies farther counts as so far: outliers hardly move the correlations.
+constexpr double most_deviations = 3;
+/// Of the variance of a mean, that of a median of normally distributed numbers.
+constexpr double variance_of_median = 1.25 * 1.25;
+
+/// The other law's effective modulus where its table ends first.
+constexpr double law_unknown = 1.2;
+
+struct MeasuredFigure {
+  double median, deviation;
+  std::vector<double> values;
+};
+
+MeasuredFigure figure_of(std::span<const double> measured, double (*feature)(double)) {
+  std::vector<double> values;
+  for (const double value : measured) values.push_back(feature(value));
+  const CountedSample<double> sample(values);
+  return {sample.quantile(0.5), robust_deviation(sample), std::move(values)};
+}
+
+SeenFigure medians_of(const EventFigures& events) {
+  const std::array columns{figure_of(events.area_um2, [](double area) { return std::log(area); }),
+                           figure_of(events.deformation, [](double d) { return d; }),
+                           figure_of(events.inertia_ratio, [](double ratio) { return 1 / (ratio * ratio); })};
+  const auto count = double(events.area_um2.size());
+  SeenFigure seen;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    seen.value(Eigen::Index(i)) = columns[i].median;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      double sum = 0;
+      for (std::size_t event = 0; event < columns[i].values.size(); ++event) {
+        const auto from_median = [event](const MeasuredFigure& c) {
+          return std::clamp((c.values[event] - c.median) / c.deviation, -most_deviations, most_deviations);
+        };
+        sum += from_median(columns[i]) * from_median(columns[k]);
+      }
+      seen.covariance(Eigen::Index(i), Eigen::Index(k)) =
+          variance_of_median * sum / count / count * columns[i].deviation * columns[k].deviation;
+    }
+  }
+  return seen;
+}
+
+/// By the coordinate that lies farthest beyond the table.
+EffectivePlace place_of(const CombinedInterpolation& table, const ProportionedEstimate& found) {
+  const ModuliEstimate& e = found.by_scatter;
+  if (e.status == ModuliStatus::no_data) return EffectivePlace::unknown;
+  if (found.is_ambiguous) return EffectivePlace::ambiguous;
+  if (e.status != ModuliStatus::outside_table) return EffectivePlace::inside;
+  const CellBox& box = table.box();
+  const auto beyond = [&](int x) { return e.cell(x) > box.greatest(x); };
+  const auto before = [&](int x) { return e.cell(x) < box.least(x); };
+  if (beyond(x_radius) || before(x_radius)) return EffectivePlace::other_size;
+  if (beyond(x_axial)) return EffectivePlace::longer;
+  return before(x_progress) || before(x_axial) ? EffectivePlace::stiffer : EffectivePlace::softer;
+}
+
+}  // namespace
+
+EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
+                             const Sight& sight, double pixel_size_um) {
+  EffectiveCell cell;
+  cell.events = events.area_um2.size();
+  if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
+  const SeenFigure seen = medians_of(events);
+  if (!seen.value.allFinite() || !seen.covariance.allFinite()) return cell;
+  const ProportionedCells& cells = *laws.front();
+  const ProportionedEstimate found = cells.estimate(seen, sight, pixel_size_um);
+  const ModuliEstimate &by_scatter = found.by_scatter, &in_common = found.in_common;
+  cell.place = place_of(cells.table(), found);
+  cell.softest_kPa = found.softest_kPa;
+  cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
+  if (!cell.is_found()) return cell;
+  const auto modulus = [&](Modulus m) {
+    return Median{by_scatter.value(m), by_scatter.error(m), in_common.error(m)};
+  };
+  cell.effective_kPa = {by_scatter.effective_modulus_kPa, by_scatter.effective_modulus_error_kPa,
+                        in_common.effective_modulus_error_kPa};
+  cell.stiffness_kPa = {by_scatter.stiffness_kPa, by_scatter.stiffness_error_kPa, in_common.stiffness_error_kPa};
+  cell.young_kPa = modulus(Modulus::young);
+  cell.cortex_mN_per_m = modulus(Modulus::cortex);
+  cell.tension_mN_per_m = modulus(Modulus::tension);
+  cell.axial_tension_Pa = {by_scatter.axial_tension_Pa, by_scatter.axial_tension_error_Pa,
+                           in_common.axial_tension_error_Pa};
+  cell.radius_um = by_scatter.value(Modulus::cortex) / (by_scatter.stiffness_kPa - by_scatter.value(Modulus::young));
+  const double of_events = std::pow(by_scatter.effective_modulus_error_kPa, 2) * double(cell.events) / variance_of_median,
+               of_pixels = pixel_size_um > 0 ? std::pow(found.of_picture.effective_modulus_error_kPa, 2) : 0;
+  cell.spread = std::sqrt(std::max(of_events - of_pixels, 0.0)) / cell.effective_kPa.value;
+  if (laws.size() > 1) {
+    const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um).by_scatter;
+    if (other.status != ModuliStatus::outside_table)
+      cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
+  }
+  return cell;
+}
+
+void add_errors_of_model(double reynolds, bool is_cortex_seen, EffectiveCell& cell) {
+  const double of_all = std::hypot(modulus_per_reynolds * reynolds, error_of_height);
+  // Half of the difference; without the other law's cell as much as at its end.
+  const double of_law = std::abs(std::log(std::isfinite(cell.over_other_law) ? cell.over_other_law : law_unknown)) / 2;
+  const auto add = [&](Median& median, double of_proportions) {
+    median.common_error = std::hypot(median.common_error, median.value * std::hypot(of_all, of_law, of_proportions));
+  };
+  add(cell.effective_kPa, is_cortex_seen ? error_of_proportions : error_of_unseen_proportions);
+  for (Median* const of_parts :
+       {&cell.stiffness_kPa, &cell.young_kPa, &cell.cortex_mN_per_m, &cell.tension_mN_per_m})
+    add(*of_parts, stiffness_by_proportions);
+  add(cell.axial_tension_Pa, tension_by_proportions);
+}
+
+}  // namespace rheocyte

@@ -1,0 +1,58 @@
+// The cell that has the median area, deformation and inertia ratio of a recording's events: its effective modulus is
+// reported of cells that the flow alone does not make so long (docs/theory-extract.md, sec. "The effective modulus").
+#pragma once
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "extract/median.h"
+#include "infer/proportioned_cells.h"
+#include "numeric/no_value.h"
+
+namespace rheocyte {
+
+/// Area (um2), deformation and inertia ratio of events as measured, of all that count: what has no modulus counts, too.
+struct EventFigures {
+  std::vector<double> area_um2, deformation, inertia_ratio;
+};
+
+/// Where the median cell lies in the table; ambiguous: cells of different stiffness there have such medians.
+enum class EffectivePlace { unknown, inside, softer, longer, stiffer, other_size, ambiguous };
+
+struct EffectiveCell {
+  std::size_t events = 0;
+  EffectivePlace place = EffectivePlace::unknown;
+  Median effective_kPa;  ///< modulus of the homogeneous solid that a small axial tension elongates alike
+  Median stiffness_kPa;  ///< E + E2D / r0
+  Median young_kPa, cortex_mN_per_m, tension_mN_per_m;  ///< of bulk and cortex, in the table's proportions
+  Median axial_tension_Pa;                              ///< of the liquid
+  double radius_um = no_value;                          ///< at rest
+  double spread = no_value;  ///< of ln of the effective modulus between cells, without the noise of their pictures
+  double wall_stress_Pa = no_value;
+  double softest_kPa = no_value;        ///< effective modulus at the end of the table, of a softer cell
+  double over_other_law = no_value;     ///< the effective modulus over that by the other law of the cortex
+  bool is_found() const { return place == EffectivePlace::inside; }
+
+  /// For store/bytes.h.
+  template <class Self>
+  static auto fields(Self& s) {
+    return std::tie(s.events, s.place, s.effective_kPa, s.stiffness_kPa, s.young_kPa, s.cortex_mN_per_m,
+                    s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa, s.softest_kPa,
+                    s.over_other_law);
+  }
+};
+
+/// Fewer events have none.
+inline constexpr std::size_t min_events_of_effective_cell = 20;
+
+/// By cells of one law of the cortex or of two, of which the first counts. Its errors in common are those of pixels,
+/// section and table. Unknown for too few events, and without a table.
+EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
+                             const Sight& sight, double pixel_size_um);
+
+/// What the model adds to the errors in common: inertia, height, and the proportions and the law of the cortex. Of cells
+/// whose outlines show a cortex the proportions are better known.
+void add_errors_of_model(double reynolds, bool is_cortex_seen, EffectiveCell& cell);
+
+}  // namespace rheocyte

@@ -1,0 +1,153 @@
+#include "infer/proportioned_cells.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "case/user_error.h"
+#include "infer/square_law.h"
+#include "measurement/shape_in_pixels.h"
+
+namespace rheocyte {
+
+namespace {
+
+constexpr std::array figure{int(ShapeFeature::area_um2), int(ShapeFeature::deformation),
+                            int(ShapeFeature::moment_ratio)};
+constexpr int mode_2 = feature_of_mode(2), mode_3 = feature_of_mode(3);
+
+/// Of the noise of one picture, what stays in the median of many: the rest of the laws of pixels, and which pixels of
+/// the edge belong to a mask (extract/common_errors.h has the same parts of the deformation's).
+constexpr double left_of_picture = 0.39;
+constexpr int draws = 400;
+/// From which cells alike are looked for, in parts of the stiffness; those whose features cannot be distinguished at 90 %
+/// and whose moduli differ by more than this logarithm count.
+constexpr std::array other_stiffnesses{0.35, 0.6, 1.7, 2.8};
+constexpr double same_chi_squared = 2.7, same_modulus = 0.1;
+/// Variances that leave the covariance regular where there are neither pixels nor a square channel.
+constexpr double least_variance = 1e-8;
+
+/// Where the search begins. The third mode of elongated cells is near this.
+ShapeVector first_shape(const SeenFigure& seen) {
+  constexpr double usual_mode_3 = 0.06;
+  ShapeVector shape = ShapeVector::Zero();
+  for (std::size_t i = 0; i < figure.size(); ++i) shape(figure[i]) = seen.value(Eigen::Index(i));
+  const double axes = 1 / std::sqrt(shape(int(ShapeFeature::moment_ratio)));
+  shape(mode_2) = (axes - 1) / (axes + 1);
+  shape(mode_3) = usual_mode_3;
+  return shape;
+}
+
+/// With that of the modes, which are not fitted.
+void set_figure(const Eigen::Matrix3d& covariance, ShapeErrors& errors) {
+  errors.covariance.setIdentity();
+  for (std::size_t i = 0; i < figure.size(); ++i)
+    for (std::size_t k = 0; k < figure.size(); ++k)
+      errors.covariance(figure[i], figure[k]) = covariance(Eigen::Index(i), Eigen::Index(k));
+}
+
+Eigen::Matrix3d figure_of(const ShapeErrors& errors) { return errors.covariance(figure, figure); }
+
+}  // namespace
+
+ProportionedCells::ProportionedCells(const CombinedTable& table)
+    : between_(table),
+      simulated_(channel_flow_of(table.spec.base)),
+      fit_(between_, simulated_, {features_of_figure(), false, between_.tension_ratios().front()}) {
+  const CellBox& box = between_.box();
+  if (!between_.is_elongated() || between_.tension_ratios().size() > 1 ||
+      box.least(x_fraction) != box.greatest(x_fraction))
+    throw UserError(fmt::format(
+        "{}: cells of fixed proportions have one table.cortex_fraction, one table.tension_ratio and table.axial_ratio.",
+        table.spec.identifier));
+}
+
+ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const {
+  constexpr int rounds = 3;  // the change by the square hardly depends on the shape
+  const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
+  ShapeErrors by_square;
+  if (sight.section == Section::square)
+    for (int round = 0; round < rounds; ++round) {
+      const ShapeVector smooth = in_tube + by_square.bias;
+      by_square = change_by_square(
+          {.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi /
+                     sight.flow.width_um,
+           .mode_2 = smooth(mode_2),
+           .mode_3 = smooth(mode_3),
+           .cortex_fraction = cell(x_fraction),
+           .cortex_tension = cell(x_fraction) * cell(x_ratio),
+           .thinning = simulated_.exponent - sight.flow.exponent});
+    }
+  by_square.covariance *= sight.error_factor * sight.error_factor;
+  if (!(pixel_size_um > 0)) return {by_square, {}};
+  const ShapeVector smooth = in_tube + by_square.bias;
+  CellRandom random{1, 0, Purpose::picture};  // the same places for all recordings, whose ratios they leave alone
+  return {by_square, errors_in_pixels(outline_of(smooth), pixel_size_um, draws, random)};
+}
+
+CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
+  constexpr int halvings = 30;
+  cell = cell.cwiseMax(between_.box().least).cwiseMin(between_.box().greatest);
+  if (between_.is_inside(cell)) return cell;
+  double inside = between_.box().least(x_progress), beyond = cell(x_progress);
+  for (int i = 0; i < halvings; ++i) {
+    cell(x_progress) = (inside + beyond) / 2;
+    (between_.is_inside(cell) ? inside : beyond) = cell(x_progress);
+  }
+  cell(x_progress) = inside;
+  return cell;
+}
+
+bool ProportionedCells::has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow,
+                                         const CellCoordinates& cell) const {
+  const auto effective_at = [&](const CellCoordinates& place) {
+    return effective_modulus_kPa(fit_.at_rest(), place, between_.at(place)).value;
+  };
+  const double own = effective_at(cell);
+  return std::ranges::any_of(other_stiffnesses, [&](double factor) {
+    CellCoordinates start = cell;  // under the same tension
+    start(x_progress) -= std::log(factor), start(x_axial) /= factor;
+    start = start.cwiseMax(between_.box().least).cwiseMin(between_.box().greatest);
+    const auto other = fit_.nearest(shape, flow, AxialTension::unknown(), &start);
+    return other && other->chi_squared < same_chi_squared && between_.is_inside(other->cell) &&
+           std::abs(std::log(effective_at(other->cell) / own)) > same_modulus;
+  });
+}
+
+ProportionedEstimate ProportionedCells::estimate(const SeenFigure& seen, const Sight& sight,
+                                                 double pixel_size_um) const {
+  constexpr int rounds = 4;  // the errors hardly depend on the cell
+  MeasuredShape shape{first_shape(seen), {}};
+  set_figure(seen.covariance, shape.errors);
+  std::optional<BulkCortexFit::Candidate> nearest;
+  Added errors;
+  for (int round = 0; round < rounds; ++round) {
+    nearest = fit_.nearest(shape, sight.flow, AxialTension::unknown(), nearest ? &nearest->cell : nullptr);
+    if (!nearest) return {};
+    errors = added(nearest->cell, sight, pixel_size_um);
+    shape.errors.bias = errors.by_square.bias + errors.by_pixels.bias;
+  }
+  const auto with_errors = [&](const Eigen::Matrix3d& covariance) {
+    set_figure(covariance, shape.errors);
+    return fit_.fit(shape, sight.flow, AxialTension::unknown());
+  };
+  const Eigen::Matrix3d of_picture = figure_of(errors.by_pixels);
+  Eigen::Matrix3d in_common = left_of_picture * left_of_picture * of_picture + figure_of(errors.by_square);
+  in_common.diagonal().array() += least_variance;
+  in_common(1, 1) += std::pow(between_.spec().accuracy * seen.value(1), 2);
+  ProportionedEstimate found{with_errors(seen.covariance), with_errors(in_common), {}};
+  found.is_ambiguous = has_others_alike(shape, sight.flow, found.by_scatter.cell);
+  if (pixel_size_um > 0) found.of_picture = with_errors(of_picture);
+  if (found.by_scatter.status == ModuliStatus::outside_table) {
+    const CellCoordinates last = held_inside(found.by_scatter.cell);
+    found.softest_kPa = effective_modulus_kPa(fit_.at_rest(), last, between_.at(last)).value *
+                        scale_factors(simulated_, sight.flow).modulus;
+  }
+  return found;
+}
+
+}  // namespace rheocyte

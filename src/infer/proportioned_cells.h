@@ -1,0 +1,58 @@
+// Cells whose bulk, cortex and tension of the cortex stand in fixed proportions to each other. Area, deformation and
+// inertia ratio determine the size, the stiffness and the axial tension of the liquid, and so the effective modulus,
+// which hardly depends on the proportions (docs/theory-extract.md, sec. "The effective modulus").
+#pragma once
+#include <Eigen/Core>
+
+#include "infer/bulk_cortex_fit.h"
+#include "infer/rendered_errors.h"
+#include "table/combined_interpolation.h"
+
+namespace rheocyte {
+
+/// ln(area / um2), deformation and Lambda1 / Lambda2 of outlines in pixels.
+struct SeenFigure {
+  Eigen::Vector3d value;
+  Eigen::Matrix3d covariance;  ///< by the scatter of the events
+};
+
+/// Estimates of one cell, which differ in their errors.
+struct ProportionedEstimate {
+  ModuliEstimate by_scatter;  ///< of the events
+  ModuliEstimate in_common;   ///< of all events: by the pixels, the section of the channel and the table
+  ModuliEstimate of_picture;  ///< of one event by its pixels
+  /// Whether cells of other stiffness have the same area, deformation and inertia ratio: very long ones, of which the
+  /// deformation says nothing of the asymmetry.
+  bool is_ambiguous = false;
+  /// Of the last cell of the table with this size and axial tension over stiffness, where the cell is a softer one.
+  double softest_kPa = no_value;
+};
+
+class ProportionedCells {
+ public:
+  /// Of an elongated combined table with one fraction and one tension; UserError otherwise.
+  explicit ProportionedCells(const CombinedTable& table);
+  ProportionedCells(const ProportionedCells&) = delete;
+  ProportionedCells& operator=(const ProportionedCells&) = delete;
+
+  /// The cell that is seen so; a pixel size of zero: without pixels.
+  ProportionedEstimate estimate(const SeenFigure& seen, const Sight& sight, double pixel_size_um) const;
+
+  const CombinedInterpolation& table() const { return between_; }
+
+ private:
+  /// What is added to the features of a cell of the table.
+  struct Added {
+    ShapeErrors by_square, by_pixels;
+  };
+  Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
+  /// The cell, or the last one of the table on the way there from a stiffer one.
+  CellCoordinates held_inside(CellCoordinates cell) const;
+  bool has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow, const CellCoordinates& cell) const;
+
+  CombinedInterpolation between_;
+  ChannelFlow simulated_;
+  BulkCortexFit fit_;
+};
+
+}  // namespace rheocyte

@@ -1,0 +1,133 @@
+// The effective modulus from area, deformation and inertia ratio: of cells of the table, of direct states in the square
+// channel, and of cells of other proportions.
+#include "infer/proportioned_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "store/build_info.h"
+
+namespace rheocyte::proportioned_cells_test {
+namespace {
+
+constexpr double pixel_um = 0.34;
+const ChannelFlow newtonian{20, 0.04, 6, 1};
+/// CellCarrier at the wall of the square channel (docs/theory-extract.md, sec. "Viscosity").
+ChannelFlow cellcarrier(double rate_ul_s) {
+  constexpr double exponent = 0.6548, consistency = 0.2079;
+  const double shear_rate = 8 * rate_ul_s * 1e-9 / 8e-15 * (0.6671 + 0.2121 / exponent);
+  return {20, rate_ul_s, 1e3 * consistency * std::pow(shear_rate, exponent - 1), exponent};
+}
+
+CombinedTable shipped(const std::string& identifier) {
+  return read_combined_table(std::filesystem::path(data_folder) / combined_file_name(identifier));
+}
+
+const ProportionedCells& cells_by_current_area() {
+  static const ProportionedCells cells(shipped("HL-2D-NH-26"));
+  return cells;
+}
+const ProportionedCells& cells_by_reference_area() {
+  static const ProportionedCells cells(shipped("HL-2D-NHR-26"));
+  return cells;
+}
+
+SeenFigure figure_of(double area_um2, double deformation, double moment_ratio) {
+  return {{std::log(area_um2), deformation, moment_ratio}, Eigen::Vector3d(1e-6, 1e-8, 1e-6).asDiagonal()};
+}
+SeenFigure figure_of(const CombinedState& state) {
+  return figure_of(std::exp(state.value(log_area_row)), state.value(deformation_row), state.value(moment_ratio_row));
+}
+
+TEST(ProportionedCells, FindTheCellsOfTheirTable) {
+  const CombinedInterpolation& table = cells_by_current_area().table();
+  const CellsAtRest rest = cells_at_rest(table.spec());
+  CellCoordinates cell = table.box().least;
+  for (const double radius_um : {4.6, 6.1, 7.3})
+    for (const double axial : {0.1, 0.7, 1.2})
+      for (const double progress : {0.16, 0.25}) {
+        cell(x_radius) = std::log(radius_um), cell(x_axial) = axial, cell(x_progress) = std::log(progress);
+        const CombinedState state = table.at(cell);
+        ASSERT_TRUE(state.inside);
+        const auto found = cells_by_current_area().estimate(figure_of(state), {newtonian}, 0).by_scatter;
+        const double expected = effective_modulus_kPa(rest, cell, state).value;
+        EXPECT_NEAR(found.effective_modulus_kPa, expected, 1e-4 * expected) << radius_um << " " << axial;
+        EXPECT_NEAR(found.axial_tension_Pa, 1e3 * axial * std::exp(state.value(log_stiffness_row)), 0.1);
+      }
+}
+
+/// Solved in three dimensions in CellCarrier, with a bending stiffness of 1e4 kBT; no table has a part in them.
+TEST(ProportionedCells, HaveTheModulusOfDirectStatesInTheSquareChannel) {
+  struct Direct {
+    const ProportionedCells& cells;
+    double rate, area_um2, deformation, moment_ratio, effective_kPa, tension_Pa;
+  };
+  const std::vector<Direct> states{
+      {cells_by_current_area(), 0.04, 152.3517, 0.063421, 0.419852, 0.454507, 192},
+      {cells_by_current_area(), 0.08, 161.1951, 0.091314, 0.349396, 0.472949, 192 * std::pow(2, 0.6548)},
+      {cells_by_reference_area(), 0.04, 152.8660, 0.063407, 0.410906, 0.587508, 192}};
+  for (const Direct& s : states) {
+    const auto found = s.cells.estimate(figure_of(s.area_um2, s.deformation, s.moment_ratio),
+                                        {cellcarrier(s.rate), Section::square}, 0);
+    EXPECT_NEAR(found.by_scatter.effective_modulus_kPa / s.effective_kPa, 1, 0.03);
+    EXPECT_NEAR(found.by_scatter.axial_tension_Pa / s.tension_Pa, 1, 0.05);
+    EXPECT_LT(found.in_common.effective_modulus_error_kPa, 0.05 * s.effective_kPa);
+  }
+}
+
+/// Of a table with other fractions and tensions of the cortex, by the same law.
+TEST(ProportionedCells, TheProportionsHardlyMatter) {
+  const CombinedTable other = shipped("HC-2D-EL-26");
+  const CombinedInterpolation table(other);
+  const CellsAtRest rest = cells_at_rest(table.spec());
+  CellCoordinates cell = table.box().least;
+  cell(x_radius) = std::log(6.3), cell(x_progress) = std::log(0.15), cell(x_axial) = 0.6;
+  const auto ratio_at = [&](double fraction, double tension_ratio) {
+    cell(x_fraction) = fraction, cell(x_ratio) = tension_ratio;
+    const CombinedState state = table.at(cell);
+    EXPECT_TRUE(state.inside);
+    return cells_by_reference_area().estimate(figure_of(state), {newtonian}, 0).by_scatter.effective_modulus_kPa /
+           effective_modulus_kPa(rest, cell, state).value;
+  };
+  EXPECT_NEAR(ratio_at(0.65, 0.615), 1, 0.02);
+  for (const double fraction : {0.45, 0.6, 0.75})
+    for (const double tension_ratio : {0.4, 0.85}) EXPECT_NEAR(ratio_at(fraction, tension_ratio), 1, 0.07);
+  EXPECT_NEAR(ratio_at(0, 0.5), 0.75, 0.12) << "of solids";
+}
+
+/// Long cells of a small asymmetry: their deformation is that of their length.
+TEST(ProportionedCells, LongCellsWithoutAsymmetryAreAmbiguous) {
+  const CombinedInterpolation& table = cells_by_current_area().table();
+  CellCoordinates cell = table.box().least;
+  cell(x_radius) = std::log(5.2), cell(x_axial) = 1.6, cell(x_progress) = std::log(0.16);
+  EXPECT_TRUE(cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, 0).is_ambiguous);
+  cell(x_axial) = 0.7;
+  EXPECT_FALSE(cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, 0).is_ambiguous);
+}
+
+TEST(ProportionedCells, PixelsOfTheOutlineAreTakenAway) {
+  const CombinedInterpolation& table = cells_by_current_area().table();
+  CellCoordinates cell = table.box().least;
+  cell(x_radius) = std::log(6.3), cell(x_progress) = std::log(0.2), cell(x_axial) = 0.7;
+  const auto smooth = cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, 0);
+  const auto seen = cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, pixel_um);
+  // Pixels deform an outline: without them it is that of a stiffer cell.
+  EXPECT_GT(seen.by_scatter.effective_modulus_kPa, 1.02 * smooth.by_scatter.effective_modulus_kPa);
+  EXPECT_GT(seen.in_common.effective_modulus_error_kPa, smooth.in_common.effective_modulus_error_kPa);
+}
+
+TEST(ProportionedCells, SofterCellsHaveABound) {
+  const auto found = cells_by_current_area().estimate(figure_of(150, 0.2, 0.3), {newtonian, Section::square}, pixel_um);
+  EXPECT_EQ(found.by_scatter.status, ModuliStatus::outside_table);
+  EXPECT_GT(found.softest_kPa, 0);
+  EXPECT_LT(found.softest_kPa, 0.5);
+}
+
+TEST(ProportionedCells, NeedOneFractionAndOneTension) {
+  EXPECT_THROW(ProportionedCells(shipped("HC-2D-EL-26")), UserError);
+}
+
+}  // namespace
+}  // namespace rheocyte::proportioned_cells_test
