@@ -92,7 +92,6 @@ void EffectivePopulations::fit(const PopulationEvents& events, RecordingReport& 
   }
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), false, cell);
   r.quantities = {estimate_of(PopulationQuantity::effective_modulus, cell.effective_kPa, cell.spread),
-                  estimate_of(PopulationQuantity::stiffness, cell.stiffness_kPa, cell.spread),
                   estimate_of(PopulationQuantity::axial_tension, cell.axial_tension_Pa, 0)};
   r.log_radius = std::log(cell.radius_um);
 }
