@@ -63,10 +63,12 @@ struct PopulationOptions {
   std::filesystem::path folder;         ///< of the results
   bool quiet = false;
   MeasuringOptions measuring;
-  std::string model;               ///< solid or cortex; empty: solid
+  std::string model;               ///< solid, effective or cortex; empty: solid
   std::optional<Section> section;  ///< in which cells with a cortex were seen; not given: section_seen
   std::string table;               ///< of elongated cells, or a combined one; empty: that which comes with the program
   std::string by;                  ///< asymmetry, odd-deformation, deformation; empty: asymmetry
+  std::vector<std::string> doses;  ///< NAME=VALUE, of conditions
+  std::string dose_unit;           ///< in words
   bool paired = false;             ///< the recordings of each condition are of the same sessions, in order
   std::optional<double> between_recordings;  ///< known standard deviation of ln E
   bool shared_spread = false;                ///< of solids: the cells of all recordings of a condition scatter alike

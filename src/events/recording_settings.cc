@@ -198,6 +198,11 @@ Settings settings_of(PopulationOptions& o) {
        setting("paired", "Paired", &o.paired,
                "the first recordings of all conditions are of one session, the second ones of another"),
        std::move(between),
+       of_type("NAME=VALUE", {},
+               setting("dose", "a dose", &o.doses,
+                       "the dose of a condition, e.g. drug=0.05; the first condition has dose 0 if no other is given. "
+                       "Reports the trend over the doses and the EC50")),
+       of_type("UNIT", {}, setting("dose_unit", "Unit of the dose", &o.dose_unit, "for words and pictures, e.g. ug/ml", "none")),
        setting("shared_spread", "Shared spread", &o.shared_spread,
                "of solids: one spread of radius and modulus for all recordings of a condition"),
        outline_noise(o.outline_noise_um),

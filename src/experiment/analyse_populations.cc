@@ -10,8 +10,10 @@
 #include "events/plausibility.h"
 #include "events/settings_hash.h"
 #include "experiment/condition_reports.h"
+#include "experiment/dose_reports.h"
 #include "experiment/population_model.h"
 #include "experiment/shared_spreads.h"
+#include "experiment/tension_of_setup.h"
 #include "experiment/unlike_recordings.h"
 #include "numeric/quantile.h"
 
@@ -38,6 +40,7 @@ class PopulationAnalysis {
 
   const PopulationOptions& options_;
   const std::vector<PopulationCondition>& conditions_;
+  std::vector<double> doses_;
   StiffnessMeasure by_;
   std::unique_ptr<PopulationModel> model_;
   std::vector<RecordingReport> recordings_;
@@ -48,6 +51,7 @@ PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options,
                                        const std::vector<PopulationCondition>& conditions)
     : options_(options),
       conditions_(conditions),
+      doses_(doses_of(options.doses, conditions)),
       by_(stiffness_measure_of(options)),
       model_(population_model(options)) {}
 
@@ -132,6 +136,10 @@ PopulationReport PopulationAnalysis::report() const {
   report.outline_noise_um = options_.outline_noise_um.value_or(0);
   report.recordings = recordings_;
   report.systematic_errors = model_->systematic_errors(recordings_);
+  report.doses = doses_;
+  report.dose_unit = options_.dose_unit;
+  report.dose_responses = dose_reports(recordings_, doses_, options_.paired, report.level);
+  report.tensions = tensions_of_setups(recordings_);
   report.warnings = unlike_recordings();
   if (options_.shared_spread)
     for (auto& remark : share_spreads(conditions_, report.level, report.recordings))

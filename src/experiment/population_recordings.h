@@ -8,6 +8,7 @@
 #include "events/options.h"
 #include "experiment/recording_report.h"
 #include "population/comparison.h"
+#include "population/dose_response.h"
 #include "population/stiffening.h"
 
 namespace rheocyte {
@@ -61,6 +62,12 @@ struct ConditionComparison {
   ConditionDifference difference;
 };
 
+/// How a quantity follows the dose of the conditions.
+struct DoseReport {
+  PopulationQuantity quantity;
+  DoseResponse response;
+};
+
 struct PopulationReport {
   std::string model, elongation, systematic_errors;  ///< those of PopulationModel
   StiffnessMeasure by = StiffnessMeasure::asymmetry;
@@ -70,6 +77,10 @@ struct PopulationReport {
   std::vector<RecordingReport> recordings;
   std::vector<ConditionReport> conditions;
   std::vector<ConditionComparison> comparisons;
+  std::vector<double> doses;  ///< of the conditions, NaN without one; empty: none is given
+  std::string dose_unit;
+  std::vector<DoseReport> dose_responses;
+  std::vector<std::string> tensions;  ///< whether those of a set-up are one (experiment/tension_of_setup.h)
   std::vector<std::string> warnings;
 
   bool has_failures() const;

@@ -200,6 +200,24 @@ Columns<ConditionReport> condition_columns(const PopulationReport& report) {
   return std::move(list).columns();
 }
 
+Columns<DoseReport> dose_columns() {
+  using D = DoseReport;
+  const auto number = [](double DoseResponse::*of) { return [of](const D& d) { return d.response.*of; }; };
+  ColumnList<D> list;
+  list.add({.name = "quantity"}, [](const D& d) { return words_of(d.quantity).name; });
+  list.add_with_interval({.name = "ec50", .sentence = "dose of half of the effect on ln of the quantity"},
+                         number(&DoseResponse::ec50), number(&DoseResponse::ec50_lower),
+                         number(&DoseResponse::ec50_upper));
+  list.add({.name = "ratio_at_large_dose", .sentence = "of the quantity, over that without a dose"},
+           [](const D& d) { return std::exp(d.response.log_effect); });
+  list.add_with_interval({.name = "ratio_per_decade", .sentence = "of the quantity, for ten times the dose"},
+                         [](const D& d) { return std::exp(d.response.slope_per_decade); },
+                         [](const D& d) { return std::exp(d.response.slope_lower); },
+                         [](const D& d) { return std::exp(d.response.slope_upper); });
+  list.add({.name = "p_of_trend"}, number(&DoseResponse::p));
+  return std::move(list).columns();
+}
+
 Columns<ConditionComparison> comparison_columns(const PopulationReport& report) {
   using C = ConditionComparison;
   using D = ConditionDifference;

@@ -37,6 +37,7 @@ const Columns<PopulationQuantity>& quantity_columns();
 /// The report must outlive these columns: its model and its quantities determine which there are.
 Columns<RecordingReport> recording_columns(const PopulationReport& report);
 Columns<ConditionReport> condition_columns(const PopulationReport& report);
+Columns<DoseReport> dose_columns();
 Columns<ConditionComparison> comparison_columns(const PopulationReport& report);
 const Columns<ParameterRow>& parameter_columns();
 const Columns<MeasureCheck>& check_columns();

@@ -60,6 +60,11 @@ ordered_json population_record(const PopulationReport& report) {
   ordered_json& recordings = record["recordings"] = ordered_json::array();
   const auto columns = recording_columns(report);
   for (const RecordingReport& r : report.recordings) recordings.push_back(recording_json(columns, r));
+  if (!report.doses.empty()) {
+    record["doses"] = ordered_json{{"unit", report.dose_unit}, {"of_conditions", report.doses}};
+    record["dose_responses"] = rows_json(dose_columns(), report.dose_responses);
+  }
+  record["tensions"] = report.tensions;
   record["warnings"] = report.warnings;
   return record;
 }

@@ -49,10 +49,11 @@ std::string condition_line(const ConditionReport& c, StiffnessMeasure by) {
   const std::string_view interval_by = first.is_by_recordings ? "by its recordings"
                                        : c.recordings > 1 ? "by sampling, which is wider than the recordings scatter"
                                                           : "by sampling alone";
-  return fmt::format(
-      "{}: median {} {}; spread of {} {:.0f} %; r0 {:.2f} um, spread {:.1f} %{}; recordings: {}, events: {}{}", c.name,
-      medians, interval_by, words_of(first.quantity).symbol, 100 * first.spread, std::exp(c.log_radius),
-      100 * c.radius_spread, elongation_text(c, by), c.recordings, c.events, missing_text(c));
+  const std::string radius_spread =
+      std::isfinite(c.radius_spread) ? fmt::format(", spread {:.1f} %", 100 * c.radius_spread) : "";
+  return fmt::format("{}: median {} {}; spread of {} {:.0f} %; r0 {:.2f} um{}{}; recordings: {}, events: {}{}", c.name,
+                     medians, interval_by, words_of(first.quantity).symbol, 100 * first.spread, std::exp(c.log_radius),
+                     radius_spread, elongation_text(c, by), c.recordings, c.events, missing_text(c));
 }
 
 std::string stiffening_line(const ConditionReport& c) {
@@ -98,6 +99,24 @@ std::string comparison_line(const ConditionComparison& c, const PopulationReport
   return line + shares_text(report.conditions[c.treated], report.conditions[c.control]);
 }
 
+std::string dose_line(const DoseReport& d, const PopulationReport& report) {
+  const DoseResponse& r = d.response;
+  const auto symbol = words_of(d.quantity).symbol;
+  const std::string unit = report.dose_unit.empty() ? "" : " " + report.dose_unit;
+  std::string line = fmt::format("{} over the dose: ratio {:.3f} for ten times the dose", symbol,
+                                 std::exp(r.slope_per_decade));
+  if (std::isfinite(r.p))
+    line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g}", std::exp(r.slope_lower), std::exp(r.slope_upper), r.p);
+  // Without an effect no dose has half of it.
+  if (!(r.p < 1 - report.level) || !std::isfinite(r.ec50)) return line;
+  if (r.ec50_lower > 0 && std::isfinite(r.ec50_upper))
+    return line + fmt::format("; EC50 {:.3g}{} ({:.3g} .. {:.3g}), ratio {:.2f} at large doses", r.ec50, unit,
+                              r.ec50_lower, r.ec50_upper, std::exp(r.log_effect));
+  return line + (r.ec50_lower > 0 ? fmt::format("; EC50 above {:.3g}{}", r.ec50_lower, unit)
+                 : std::isfinite(r.ec50_upper) ? fmt::format("; EC50 below {:.3g}{}", r.ec50_upper, unit)
+                                               : std::string("; the doses do not determine an EC50"));
+}
+
 std::string no_ratio_text(const PopulationReport& report, std::size_t treated) {
   for (const std::size_t c : {std::size_t(0), treated})
     if (!report.conditions[c].has_numbers()) return fmt::format("{} has no number", report.conditions[c].name);
@@ -108,7 +127,7 @@ std::string checks_line(const PopulationReport& report) {
   std::size_t checked = 0, misfits = 0;
   const RecordingReport* first = nullptr;
   for (const auto& r : report.recordings) {
-    if (!r.failure.empty()) continue;
+    if (!r.failure.empty() || r.checks.empty()) continue;
     ++checked;
     const bool fits = std::ranges::all_of(r.checks, &MeasureCheck::fits);
     misfits += fits ? 0 : 1;
@@ -136,14 +155,15 @@ std::vector<std::string> population_lines(const PopulationReport& report) {
   for (const auto& c : report.conditions)
     if (c.has_numbers() && c.quantities.front().stiffening) lines.push_back(stiffening_line(c));
   for (const auto& c : report.comparisons) lines.push_back(comparison_line(c, report));
+  for (const DoseReport& d : report.dose_responses) lines.push_back(dose_line(d, report));
   for (std::size_t c = 1; c < report.conditions.size(); ++c)
     if (std::ranges::find(report.comparisons, c, &ConditionComparison::treated) == report.comparisons.end())
       lines.push_back(fmt::format("{} / {}: no ratio, because {}", report.conditions[c].name,
                                   report.conditions.front().name, no_ratio_text(report, c)));
-  if (const auto checks = checks_line(report); !checks.empty()) {
-    lines.push_back(checks);
+  lines.insert(lines.end(), report.tensions.begin(), report.tensions.end());
+  if (const auto checks = checks_line(report); !checks.empty()) lines.push_back(checks);
+  if (std::ranges::any_of(report.recordings, [](const auto& r) { return r.failure.empty(); }))
     lines.push_back("systematic errors, which do not enter ratios: " + report.systematic_errors);
-  }
   return lines;
 }
 
