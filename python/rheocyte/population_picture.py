@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
 
-from rheocyte import colours, former_population, page
+from rheocyte import colours, dose_picture, former_population, page
 from rheocyte.files import InputError, reason, run, save_figure
 from rheocyte.figures.style import STYLE
 
@@ -109,7 +109,9 @@ def draw_several(story):
     panels = figure.subplots(2 if compared else 1, len(quantities), squeeze=False)
     for column, each in enumerate(quantities):
         draw_moduli(panels[0, column], story, each["median"], f"{each['symbol']} ({each['unit']})")
-        if compared and story.comparisons(each["quantity"]):
+        if compared and dose_picture.has_doses(story.record, each["quantity"]):
+            dose_picture.draw_doses(panels[1, column], story, each, ratios_of)
+        elif compared and story.comparisons(each["quantity"]):
             draw_ratios(panels[1, column], story, each, "ratio")
         elif compared:
             panels[1, column].set_visible(False)

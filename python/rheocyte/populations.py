@@ -22,6 +22,11 @@ class Population:
     comparisons     one row per condition but the first, and quantity: control, treated, quantity, ratio with its ends, p,
                     degrees_of_freedom, ln_ratio with its standard error, ratio_by_sampling_low and ..._high
 
+    dose_responses  one row per quantity, if doses were given: ec50 with its ends (dose of half of the effect on ln of the
+                    quantity), ratio_at_large_dose, ratio_per_decade with its ends (for ten times the dose), p_of_trend
+
+    With model="effective": effective_modulus (bulk, cortex and tension together) and axial_tension (of the liquid), by the
+    medians of area, deformation and inertia ratio.
     With model="cortex" each quantity that is reported has these columns, with its unit: stiffness (E + E2D/r0),
     effective_modulus (bulk, cortex and tension together), young_modulus, cortex_modulus, cortex_tension, axial_tension (of
     the liquid); NaN where a recording does not tell it.
@@ -34,6 +39,7 @@ class Population:
         self.record = record
         self.recordings, self.conditions, self.comparisons, self._checks = (
             pandas.DataFrame(tables[name]) for name in ("recordings", "conditions", "comparisons", "checks"))
+        self.dose_responses = pandas.DataFrame(record.get("dose_responses", []))
         self._events = events
 
     def events(self, recording=0):
@@ -83,8 +89,10 @@ class Population:
                      else _told(row, "ratio", ends="ratio_by_sampling") + " by sampling alone, no p")
             lines.append(f"{row['treated']} / {row['control']}: {of}{known}")
         failed = self.recordings[self.recordings["failure"] != ""]
-        lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings"
-                     + (" with numbers" if len(failed) else ""))
+        if len(self._checks):
+            lines.append(f"checks hold in {int(self.recordings['fits'].sum())} of {len(self.recordings) - len(failed)} recordings"
+                         + (" with numbers" if len(failed) else ""))
+        lines += self.record.get("tensions", [])
         lines += [f"{row.recording}: {row.failure}" for row in failed.itertuples()]
         return "\n".join(lines)
 

@@ -9,6 +9,7 @@ class Population:
     recordings: pandas.DataFrame
     conditions: pandas.DataFrame
     comparisons: pandas.DataFrame
+    dose_responses: pandas.DataFrame
     def __init__(
         self,
         record: dict[str, Any],

@@ -86,6 +86,8 @@ def population(
     by: str | None = None,
     paired: bool = False,
     between_recordings: float | None = None,
+    dose: Mapping[str, float] | None = None,
+    dose_unit: str | None = None,
     shared_spread: bool = False,
     outline_noise_um: float | None = None,
     table: _Path | None = None,

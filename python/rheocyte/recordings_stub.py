@@ -62,7 +62,7 @@ def synth(
 ) -> int: ...
 def features(masks: ArrayLike, pixel_size_um: float) -> pandas.DataFrame: ...
 '''
-FORMS = {"table": "_Path", "min": "Mapping[str, float]", "max": "Mapping[str, float]",
+FORMS = {"table": "_Path", "min": "Mapping[str, float]", "max": "Mapping[str, float]", "dose": "Mapping[str, float]",
          "polygon": "Mapping[tuple[str, str], ArrayLike] | _Path | Sequence[_Path]"}
 
 

@@ -122,6 +122,12 @@ def _limits(limits, name):
     return [f"{feature}={number(limit, feature)!r}" for feature, limit in limits.items()]
 
 
+def _doses(doses, name):
+    if not isinstance(doses, Mapping):
+        raise UserError(f"{name} is {doses!r}; give a dictionary of conditions, such as {{\"drug\": 0.05}}.")
+    return [f"{condition}={number(dose, condition)!r}" for condition, dose in doses.items()]
+
+
 def _polygons(polygons, name):
     """As the command line has them: descriptions, or names of files."""
     if isinstance(polygons, Mapping):
@@ -147,8 +153,9 @@ _SEVERAL = {"numbers": lambda values, name: np.atleast_1d(numbers(values, name))
             "texts": lambda values, name: [word(each, name) for each in ([values] if isinstance(values, str) else values)]}
 
 # Settings that are more than a number, a word or a flag here.
-_FORMS = {"table": lambda value, _: place_of_table(value), "min": _limits, "max": _limits, "polygon": _polygons}
+_FORMS = {"table": lambda value, _: place_of_table(value), "min": _limits, "max": _limits, "polygon": _polygons, "dose": _doses}
 _SAID = {"min": 'least values of features: min={"area_um": 40}', "max": 'greatest values: max={"area_ratio": 1.05}',
+         "dose": 'doses of conditions: dose={"drug": 0.05}; the first condition has dose 0 if no other is given',
          "polygon": 'corners in the plane of two features: {("area_um", "deform"): [(40, 0.01), (90, 0.01), (90, 0.1)]}; edges '
                     'are straight over the logarithm of "log:area_um"; or the name of a file of polygon filters of DCscope or '
                     "dclab (.poly), or a list of such names"}

@@ -78,7 +78,6 @@ void add_ec50(std::span<const MeanAtDose> means, double level, DoseResponse& fou
   const double freedom = best->freedom - 1;
   if (!(freedom > 0) || std::isnan(best->slope)) return;
   found.ec50 = ec50_at(int(best - lines.begin()));
-  found.log_effect = best->slope;
   const double t = students_t_quantile(freedom, (1 + level) / 2),
                most = best->residues * (1 + t * t / freedom) + 1e-12 * best->squares;
   const auto is_alike = [&](const SessionLine& line) { return line.residues <= most; };
@@ -86,6 +85,7 @@ void add_ec50(std::span<const MeanAtDose> means, double level, DoseResponse& fou
   const auto upper = std::ranges::find_if(lines.rbegin(), lines.rend(), is_alike);
   found.ec50_lower = lower == lines.begin() ? 0 : ec50_at(int(lower - lines.begin()));
   found.ec50_upper = upper == lines.rbegin() ? HUGE_VAL : ec50_at(int(upper.base() - lines.begin()) - 1);
+  if (found.ec50_lower > 0 && std::isfinite(found.ec50_upper)) found.log_effect = best->slope;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct MeanAtDose {
 /// recordings about this law (Student's t, profiles); NaN where the recordings are too few.
 struct DoseResponse {
   double ec50 = no_value, ec50_lower = no_value, ec50_upper = no_value;  ///< an end that is not known: 0, infinity
-  double log_effect = no_value;  ///< of a very large dose, at this ec50
+  double log_effect = no_value;  ///< of a very large dose; NaN where an end of the ec50 is open
   /// Of the straight line through ln of the number over log10 of the dose, without the recordings of dose 0.
   double slope_per_decade = no_value, slope_lower = no_value, slope_upper = no_value, p = no_value;
 };
