@@ -35,9 +35,9 @@ def extract(recording, *, progress=None, **settings):
     young_modulus_inertia_kPa, by area, deformation and inertia ratio (docs/real-cells.md). attrs: units, table,
     settings, settings_hash (the same for frames that are comparable), warnings, shapes (sentences on the shapes of all
     events), recommended (the modulus of the recording that is to be reported, a dict of the columns "recommended_..." of
-    the summary table: modulus is "deformation", "elongated" or "none", young_modulus_median_kPa, its standard errors
-    young_modulus_median_kPa_error by the scatter of the events and young_modulus_median_kPa_common_error that all events have
-    in common, text the sentence; None for what is not known).
+    the summary table: modulus is "deformation", "elongated", "effective" or "none", young_modulus_median_kPa, its standard
+    errors young_modulus_median_kPa_error by the scatter of the events and young_modulus_median_kPa_common_error that all
+    events have in common, text the sentence; None for what is not known).
 
     UserError for what is wrong with the recording, naming what it lacks. It is read in a child of this process, for HDF5 is
     known to break down on some damaged files.

@@ -15,6 +15,7 @@ namespace {
   throw UserError(fmt::format("rheocyte: --dose {}: {}", one_line(text, 60), why));
 }
 
+/// UserError if it is no number, or negative.
 double value_of(const std::string& text, const std::string& number) {
   std::size_t read = 0;
   double value = no_value;
@@ -36,9 +37,10 @@ std::vector<double> doses_of(const std::vector<std::string>& texts,
   std::vector<double> doses(conditions.size(), no_value);
   for (const std::string& text : texts) {
     const auto sign = text.rfind('=');
+    if (sign == std::string::npos) value_of(text, {});
     const std::string name = text.substr(0, sign);
     const auto found = std::ranges::find(conditions, name, &PopulationCondition::name);
-    if (sign == std::string::npos || found == conditions.end()) refuse(text, "there is no such condition.");
+    if (found == conditions.end()) refuse(text, "there is no such condition.");
     doses[std::size_t(found - conditions.begin())] = value_of(text, text.substr(sign + 1));
   }
   if (std::isnan(doses.front())) doses.front() = 0;

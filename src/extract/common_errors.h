@@ -43,7 +43,7 @@ inline constexpr double error_of_unseen_cortex = 0.35;
 /// its tension is 0.2 to 0.85 of E2D; a solid would have 21 % more (docs/theory-extract.md, sec. "The effective
 /// modulus"). Of E + E2D / r0, and of the axial tension.
 inline constexpr double error_of_proportions = 0.04, error_of_unseen_proportions = 0.1, stiffness_by_proportions = 0.3,
-                        tension_by_proportions = 0.1;
+                        tension_by_proportions = 0.15;
 
 /// The same of the elongation by the axial tension, and of that tension over Young's modulus, in cells that a tension
 /// draws out (bench/round_trip_elongated).

@@ -16,8 +16,8 @@ constexpr double most_deviations = 3;
 /// Of the variance of a mean, that of a median of normally distributed numbers.
 constexpr double variance_of_median = 1.25 * 1.25;
 
-/// The other law's effective modulus where its table ends first.
-constexpr double law_unknown = 1.2;
+/// Where the other law has no such cell: as in the softest cells that both laws have.
+constexpr double law_unknown = 0.64;
 
 struct MeasuredFigure {
   double median, deviation;
@@ -101,7 +101,8 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   cell.spread = std::sqrt(std::max(of_events - of_pixels, 0.0)) / cell.effective_kPa.value;
   if (laws.size() > 1) {
     const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um).by_scatter;
-    if (other.status != ModuliStatus::outside_table)
+    // Where its table ends first, it is continued.
+    if (other.status != ModuliStatus::no_data)
       cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
   }
   return cell;
@@ -109,7 +110,7 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
 
 void add_errors_of_model(double reynolds, bool is_cortex_seen, EffectiveCell& cell) {
   const double of_all = std::hypot(modulus_per_reynolds * reynolds, error_of_height);
-  // Half of the difference; without the other law's cell as much as at its end.
+  // Half of the difference.
   const double of_law = std::abs(std::log(std::isfinite(cell.over_other_law) ? cell.over_other_law : law_unknown)) / 2;
   const auto add = [&](Median& median, double of_proportions) {
     median.common_error = std::hypot(median.common_error, median.value * std::hypot(of_all, of_law, of_proportions));
