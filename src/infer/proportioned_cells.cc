@@ -50,6 +50,22 @@ void set_figure(const Eigen::Matrix3d& covariance, ShapeErrors& errors) {
       errors.covariance(figure[i], figure[k]) = covariance(Eigen::Index(i), Eigen::Index(k));
 }
 
+/// A dented rear has a hull with corners, of which the outline by twelve modes lacks a part of the deformation; pixels
+/// take a part of that. By 345 contours of HL-2D-NH-26 in pixels of 0.34 um: of the deformation's excess 13 +- 8 % of
+/// what is lacking, of that of Lambda1 / Lambda2 26 +- 30 % (rms without it 0.0011 and 0.0026, with it 0.0004 and
+/// 0.0017).
+void add_lost_corners(double lacking_deformation, ShapeErrors& pixels) {
+  constexpr int deformation = int(ShapeFeature::deformation), moment_ratio = int(ShapeFeature::moment_ratio);
+  struct Part {
+    int feature;
+    double mean, deviation;
+  };
+  for (const auto& [feature, mean, deviation] : {Part{deformation, -0.13, 0.08}, Part{moment_ratio, 0.26, 0.3}}) {
+    pixels.bias(feature) += mean * lacking_deformation;
+    pixels.covariance(feature, feature) += std::pow(deviation * lacking_deformation / left_of_picture, 2);
+  }
+}
+
 Eigen::Matrix3d figure_of(const ShapeErrors& errors) { return errors.covariance(figure, figure); }
 
 }  // namespace
@@ -86,7 +102,10 @@ ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, c
   if (!(pixel_size_um > 0)) return {by_square, {}};
   const ShapeVector smooth = in_tube + by_square.bias;
   CellRandom random{1, 0, Purpose::picture};  // the same places for all recordings, whose ratios they leave alone
-  return {by_square, errors_in_pixels(outline_of(smooth), pixel_size_um, draws, random)};
+  const Eigen::MatrixX2d outline = outline_of(smooth);
+  ShapeErrors by_pixels = errors_in_pixels(outline, pixel_size_um, draws, random);
+  add_lost_corners(smooth(int(ShapeFeature::deformation)) - outline_shape(outline).deformation, by_pixels);
+  return {by_square, by_pixels};
 }
 
 CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
