@@ -22,17 +22,11 @@ VectorXd wrinkling_margins(const Bulk& bulk, const SurfaceState& surface) {
   });
 }
 
-VectorXd resistances_to_compression(const Cortex& cortex, const SurfaceState& surface) {
-  return VectorXd::NullaryExpr(surface.stretch.rows(), [&](Eigen::Index i) {
-    return resistance_to_compression(cortex, surface.stretch(i, 0), surface.stretch(i, 1));
-  });
-}
-
 double stability_margin(const Problem& problem, const SurfaceState& surface) {
   return stability_margin(
       problem, problem.radius_ratio,
       {wrinkling_margins(problem.bulk, surface).minCoeff(), surface_tensions(problem.cortex, surface).col(0).minCoeff(),
-       resistances_to_compression(problem.cortex, surface).minCoeff()});
+       collapse_margins(problem, surface).minCoeff()});
 }
 
 namespace {
@@ -54,18 +48,25 @@ double margin_against_wrinkles(const Media& media, double radius_ratio, const Su
   return 1;
 }
 
-/// Bending does not change it: points that slide along a surface leave its shape as it is.
-double margin_against_collapse(const Media& media, double radius_ratio, const SurfaceExtremes& least) {
-  const double at_rest = resistance_to_compression(media.cortex, 1, 1);
-  if (at_rest == 0) return 1;
-  return std::min(1.0, distance_from_limit(least.min_resistance, at_rest, media, radius_ratio));
+/// At a point, by the resistance without compression along the meridian. Bending does not change it: points that slide
+/// along a surface leave its shape as it is.
+double collapse_margin(const Problem& problem, double along, double around) {
+  const double uncompressed = resistance_to_compression(problem.cortex, 1, around);
+  if (along >= 1 || uncompressed == 0) return 1;
+  return std::min(1.0, distance_from_limit(resistance_to_compression(problem.cortex, along, around), uncompressed,
+                                           problem, problem.radius_ratio));
 }
 
 }  // namespace
 
 double stability_margin(const Media& media, double radius_ratio, const SurfaceExtremes& least) {
-  return std::min(margin_against_wrinkles(media, radius_ratio, least),
-                  margin_against_collapse(media, radius_ratio, least));
+  return std::min(margin_against_wrinkles(media, radius_ratio, least), least.collapse_margin);
+}
+
+VectorXd collapse_margins(const Problem& problem, const SurfaceState& surface) {
+  return VectorXd::NullaryExpr(surface.stretch.rows(), [&](Eigen::Index i) {
+    return collapse_margin(problem, surface.stretch(i, 0), surface.stretch(i, 1));
+  });
 }
 
 double stability_margin(const Problem& problem, const Discretisation& space, const VectorXd& unknowns) {
@@ -78,14 +79,15 @@ std::optional<WeakPoint> weak_point(const Problem& problem, const SurfaceProfile
   Eigen::Index weakest = 0;
   for (Eigen::Index i = 0; i < surface.stretch.rows(); ++i) {
     const double along = surface.stretch(i, 0), around = surface.stretch(i, 1);
-    const double resistance = resistance_to_compression(problem.cortex, along, around);
-    if (resistance < least.min_resistance) weakest = i;
+    const double here = collapse_margin(problem, along, around);
+    if (here < least.collapse_margin) weakest = i;
     least = {std::min(least.wrinkling_margin, wrinkling_margin(problem.bulk, along, around)),
              std::min(least.min_tension, principal_tensions(problem.cortex, along, around)[0]),
-             std::min(least.min_resistance, resistance)};
+             std::min(least.collapse_margin, here)};
   }
-  const double own = margin_against_collapse(problem, problem.radius_ratio, least);
-  if (!(own < margin) || own > margin_against_wrinkles(problem, problem.radius_ratio, least)) return {};
+  if (least.collapse_margin >= margin ||
+      least.collapse_margin > margin_against_wrinkles(problem, problem.radius_ratio, least))
+    return {};
   return WeakPoint{surface.stretch(weakest, 0), surface.stretch(weakest, 1),
                    surface.point(weakest, 0) / problem.radius_ratio};
 }

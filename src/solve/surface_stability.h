@@ -13,16 +13,17 @@ namespace rheocyte {
 
 /// What a surface has the least of.
 struct SurfaceExtremes {
-  double wrinkling_margin;           ///< of the bare bulk (laws/short_waves.h)
-  double min_tension;                ///< principal
-  double min_resistance = HUGE_VAL;  ///< of the shell to compression (laws/surface_form.h)
+  double wrinkling_margin;     ///< of the bare bulk (laws/short_waves.h)
+  double min_tension;          ///< principal
+  double collapse_margin = 1;  ///< of the cortex
 };
 
 /// Of the bare bulk at the points of the surface, against wrinkles along the meridian.
 VectorXd wrinkling_margins(const Bulk&, const SurfaceState&);
 
-/// Of the cortex at the points of the surface, along the meridian.
-VectorXd resistances_to_compression(const Cortex&, const SurfaceState&);
+/// What compression along the meridian has left of a cortex's resistance to it, at the points of the surface: 1 where
+/// it is not compressed, 0 where it collapses.
+VectorXd collapse_margins(const Problem&, const SurfaceState&);
 
 /// Distance from the limit of stability against short waves: stable above 0, 1 without deformation; 1 throughout where
 /// the surface is held and has no cortex.

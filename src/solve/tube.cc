@@ -124,7 +124,7 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.stability_margin =
       stability_margin(state.problem, state.problem.radius_ratio,
                        {least_along(surface, wrinkling_margins(state.problem.bulk, surface)), r.min_tension,
-                        least_along(surface, resistances_to_compression(state.problem.cortex, surface))});
+                        least_along(surface, collapse_margins(state.problem, surface))});
   return r;
 }
 

@@ -51,7 +51,7 @@ namespace {
 /// Where a cortex collapses, and by what way it does not.
 std::string place_of(const WeakPoint& point) {
   return fmt::format(
-      "where it is stretched by {:.3f} along the meridian and {:.3f} around the axis, {:.2f} r0 {} the "
+      "at stretches of {:.3f} along the meridian and {:.3f} around the axis, {:.2f} r0 {} the "
       "middle of the cell",
       point.meridional, point.hoop, std::abs(point.place), point.place < 0 ? "behind" : "before");
 }
