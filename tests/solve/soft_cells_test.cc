@@ -64,7 +64,7 @@ TEST(SoftCells, ACortexThatResistsNoMoreEndsTheBranch) {
   const StationaryState stiffer = skalak(0.98), softer = skalak(0.8);
   EXPECT_EQ(stiffer.outcome.status, Status::converged) << stiffer.outcome.message;
   EXPECT_GT(stiffer.stability_margin, 0);
-  EXPECT_NEAR(stiffer.stability_margin, 0.050, 0.005);
+  EXPECT_NEAR(stiffer.stability_margin, 0.060, 0.005);
   EXPECT_EQ(softer.outcome.status, Status::surface_unstable) << softer.outcome.message;
   EXPECT_NEAR(softer.outcome.reached * 0.925 / 0.8, 1, 0.02);
   EXPECT_NEAR(softer.stability_margin, 0, small_margin);
