@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "laws/cortex.h"
 #include "laws/derivative.h"
@@ -19,6 +20,16 @@ std::array<T, 2> principal_tensions(const Cortex& cortex, const T& l1, const T& 
   const auto energy = [&](const auto& l) { return shell_energy(cortex, l[0], l[1]); };
   const auto [f, slope] = value_and_slopes(energy, std::array<T, 2>{l1, l2});
   return {f + l1 * slope[0] + constant<T>(cortex.tension), f + l2 * slope[1] + constant<T>(cortex.tension)};
+}
+
+/// What the shell opposes to being compressed farther along the direction 1: the change of T1 with ln l1, l2 fixed.
+/// Below 0 the more compressed part of a surface draws in its neighbours (docs/theory.md, eq:collapse).
+inline double resistance_to_compression(const Cortex& cortex, double l1, double l2) {
+  const auto tension = [&](const auto& l) {
+    using Number = typename std::decay_t<decltype(l)>::value_type;
+    return principal_tensions(cortex, l[0], constant<Number>(l2))[0];
+  };
+  return l1 * value_and_slopes(tension, std::array{l1}).second[0];
 }
 
 /// A point of the meridian with its derivatives.

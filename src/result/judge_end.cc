@@ -48,16 +48,21 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
   const auto when = [](const HistoryRow& row) {
     return fmt::format("at {:.4g} us, after {:.4g} um", row.t_us, row.position_um);
   };
-  if (margin < 0)
+  const bool bends = surface_kind(problem) == SurfaceKind::held;
+  if (margin < 0) {
+    const double here = unstable.measure("least_tension_mN_per_m");
+    const bool collapses = bends || (surface_kind(problem) == SurfaceKind::membrane && here > 0);
     return fmt::format(
-        " On the way the surface was beyond its limit against short wrinkles, which the model does not follow "
-        "(stability_margin {:.2g}, least tension {:.3g} mN/m, {}).",
-        margin, unstable.measure("least_tension_mN_per_m"), when(unstable));
+        " On the way the {}, which the model does not follow (stability_margin {:.2g}, least tension "
+        "{:.3g} mN/m, {}).",
+        collapses ? "cortex had lost its resistance to compression"
+                  : "surface was beyond its limit against short wrinkles",
+        margin, here, when(unstable));
+  }
   const double greatest = std::ranges::max(record.rows, {}, [](const HistoryRow& row) {
                             return std::abs(row.measure("least_tension_mN_per_m"));
                           }).measure("least_tension_mN_per_m");
   if (tension >= -fraction_of_rounding * std::abs(greatest)) return "";
-  const bool bends = surface_kind(problem) == SurfaceKind::held;
   return fmt::format(" On the way the surface was compressed (least tension {:.3g} mN/m, {}); {} it against wrinkles.",
                      tension, when(slack), bends ? "its bending stiffness holds" : "the interior holds");
 }

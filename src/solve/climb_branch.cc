@@ -47,7 +47,8 @@ Status ResolvedBranch::climb(ResolvedState& state, Ladder& ladder) {
       std::swap(ladder, before);
       state = ladder.rungs.back();
     }
-    if (status == Status::converged || status == Status::stopped) return status;
+    const bool is_final = status == Status::surface_unstable && surface_kind(problem_) == SurfaceKind::held;
+    if (status == Status::converged || status == Status::stopped || is_final) return status;
     if (status == Status::surface_unstable || geometry_.rungs.size() == 1) reason = status;
   }
   if (!ladder.rungs.empty() && only_begins(ladder.rungs.back()))

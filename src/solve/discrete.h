@@ -32,7 +32,7 @@ class Discrete : public std::enable_shared_from_this<Discrete> {
   double deformation(const Problem& problem, const VectorXd& unknowns) const {
     return measure(contour(problem, unknowns)).deformation;
   }
-  /// Distance of the surface from its limit against short wrinkles (solve/surface_stability.h).
+  /// Distance of the surface from its limit of stability (solve/surface_stability.h).
   virtual double stability_margin(const Problem&, const VectorXd& unknowns) const = 0;
   /// Whether the surface is beyond that limit, or seen to be.
   virtual bool is_wrinkled(const Problem&, const VectorXd& unknowns) const = 0;

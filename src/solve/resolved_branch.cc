@@ -58,6 +58,12 @@ bool ResolvedBranch::is_nearly_unstable(const ResolvedState& state) const {
          state.discrete->stability_margin(problem_at(state.branch.parameter), unknowns) < small_margin;
 }
 
+/// Whether the way has ended because the next state's cortex resists compression no more: finer meshes see the same.
+bool ResolvedBranch::has_collapsed(const ResolvedState& state) const {
+  return state.status == Status::surface_unstable && surface_kind(problem_) == SurfaceKind::held &&
+         is_nearly_unstable(state);
+}
+
 void ResolvedBranch::report(Discrete& discrete, const BranchState& state, double deformation) {
   seen_ = std::max(seen_, state.parameter);
   if (report_) report_({state.parameter, deformation, state.newton_iterations, discrete.resolution().degree});
@@ -234,7 +240,7 @@ ResolvedState ResolvedBranch::follow(Search search) {
     // A surface that is unstable from the first load on is so at any resolution.
     const bool from_the_start = state.branch.parameter == 0 && state.status == Status::surface_unstable;
     state.gave_up = from_the_start || is_hopeless(geometry_, before, state.branch.parameter);
-    if (state.gave_up) break;
+    if (state.gave_up || has_collapsed(state)) break;
   }
   return state;
 }

@@ -72,6 +72,7 @@ class ResolvedBranch {
   /// Fits the mesh to the state; false if that does not help.
   bool fit(ResolvedState&, NewtonOptions);
   bool is_wrinkled(const ResolvedState&) const;
+  bool has_collapsed(const ResolvedState&) const;
   bool is_nearly_unstable(const ResolvedState&) const;
   void add(const ResolvedState&, Ladder&) const;
   void report_last(const Ladder&);

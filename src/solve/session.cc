@@ -18,7 +18,8 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
   Outcome& outcome = r.outcome;
   const bool failed_on_the_way = !has_state(outcome.status) && outcome.status != Status::stopped;
   const double margin = outcome.reached > 0 ? r.stability_margin : margin_at_rest(problem);
-  if (failed_on_the_way && margin < (gave_up ? geometry.margin_at_coarse_ends : small_margin)) {
+  const double least_margin = gave_up ? geometry.margin_at_coarse_ends : small_margin;
+  if (failed_on_the_way && margin < least_margin) {
     outcome.status = Status::surface_unstable;
   } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {
     outcome.status = Status::branch_ended;
@@ -33,6 +34,7 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
                                           .wanted_error = problem.accuracy,
                                           .stability_margin = r.stability_margin,
                                           .surface = surface_kind(problem),
+                                          .weak_point = weak_point(problem, r.surface, least_margin),
                                           .can_bend = problem.offset == 0,
                                           .is_coarse = is_early,
                                           .known_end = known_end.value_or(0) / problem.bulk.shear_modulus});

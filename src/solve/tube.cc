@@ -123,7 +123,8 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   // Tension and moduli are those of the media, which may be on the way to the wanted ones.
   r.stability_margin =
       stability_margin(state.problem, state.problem.radius_ratio,
-                       {least_along(surface, wrinkling_margins(state.problem.bulk, surface)), r.min_tension});
+                       {least_along(surface, wrinkling_margins(state.problem.bulk, surface)), r.min_tension,
+                        least_along(surface, collapse_margins(state.problem, surface))});
   return r;
 }
 

@@ -48,6 +48,20 @@ std::string ways_to_accuracy(std::string_view key, double estimated_error) {
 
 namespace {
 
+/// Where a cortex collapses, and by what way it does not.
+std::string place_of(const WeakPoint& point) {
+  return fmt::format(
+      "at stretches of {:.3f} along the meridian and {:.3f} around the axis, {:.2f} r0 {} the "
+      "middle of the cell",
+      point.meridional, point.hoop, std::abs(point.place), point.place < 0 ? "behind" : "before");
+}
+
+std::string ways_out(const LastState& last) {
+  if (!last.weak_point) return ways_to_stability(last.surface, last.can_bend);
+  return "raise the moduli, lower flow rate or viscosity, or choose a cortex that resists any compression "
+         "(cell.cortex.law = \"neo-hookean\").";
+}
+
 /// In wanted moduli; near 1 as many digits as tell the difference.
 std::string in_wanted_moduli(double ratio) {
   constexpr double told_by_four_digits = 1e-3;
@@ -56,27 +70,34 @@ std::string in_wanted_moduli(double ratio) {
   return fmt::format("{:.4g} times the wanted moduli", ratio);
 }
 
+std::string loss_of_stability(const LastState& last) {
+  if (last.weak_point)
+    return "The cortex of so soft a cell loses its resistance to compression " + place_of(*last.weak_point);
+  switch (last.surface) {
+    case SurfaceKind::bare: return "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder)";
+    case SurfaceKind::membrane: return "The cortex of so soft a cell is compressed and wrinkles";
+    case SurfaceKind::held: return "The surface of so soft a cell wrinkles";
+  }
+  return {};
+}
+
 std::string unstable_surface(const std::string& where, const LastState& last) {
-  const std::string what = last.surface == SurfaceKind::membrane
-                               ? "The cortex of so soft a cell is compressed and wrinkles: the smooth branch ends at "
-                               : "The surface of so soft a cell wrinkles (Biot instability at the rear shoulder): the "
-                                 "smooth branch ends at ";
-  return what + where + "; " + ways_to_stability(last.surface, last.can_bend);
+  return loss_of_stability(last) + ": the smooth branch ends at " + where + "; " + ways_out(last);
 }
 
 /// Of a cell with the wanted moduli, of which there was a state on some mesh.
 std::string explanation_of_wanted(Status status, const LastState& last) {
+  const auto& weak = last.weak_point;
   if (status == Status::surface_unstable && last.stability_margin < 0)
-    return fmt::format(
-        "A shape was found, but its surface is beyond the limit against short wrinkles (stability_margin {:.2g}), "
-        "where "
-        "shapes depend on the mesh; {}",
-        last.stability_margin, ways_to_stability(last.surface, last.can_bend));
-  const std::string ways = ways_to_stability(last.surface, last.can_bend);
+    return fmt::format("A shape was found, but its {} (stability_margin {:.2g}), where shapes depend on the mesh; {}",
+                       weak ? "cortex has lost its resistance to compression " + place_of(*weak)
+                            : "surface is beyond the limit against short wrinkles",
+                       last.stability_margin, ways_out(last));
   if (status == Status::surface_unstable)
-    return "A shape was found on a coarse mesh; its surface is so near the limit against short wrinkles that finer "
-           "meshes do not hold it; " +
-           ways;
+    return fmt::format("A shape was found on a coarse mesh; its {} that finer meshes do not hold it; {}",
+                       weak ? "cortex has so little resistance to compression left, " + place_of(*weak) + ","
+                            : "surface is so near the limit against short wrinkles",
+                       ways_out(last));
   return fmt::format(
       "A shape was found on a coarse mesh, but on no finer one ({}): it is close to the end of its branch; {}",
       name(status), ways_to_stability(SurfaceKind::held, false));

@@ -15,7 +15,7 @@ enum class Status {
   converged,
   iteration_limit,       ///< Newton did not converge although the continuation step was reduced to its least value
   mesh_folded,           ///< the liquid's mesh overlaps itself at every step size
-  surface_unstable,      ///< the bare surface wrinkles (Biot): the smooth branch ends before the wanted state
+  surface_unstable,      ///< the surface wrinkles, or its cortex collapses: the branch ends before the wanted state
   branch_ended,          ///< the tangent turns back: no state on this branch beyond
   singular_matrix,       ///< the factorisation failed
   not_finite,            ///< NaN or infinity in residual or state
@@ -55,15 +55,21 @@ inline bool has_wanted_moduli(const Outcome& outcome) {
   return has_state(outcome.status) || (outcome.status == Status::surface_unstable && outcome.reached >= 1);
 }
 
-/// bare: the bulk alone; loses stability at Biot's ratio. membrane: an elastic cortex without bending stiffness; it
-/// does where it is compressed along the meridian more than the bulk below supports. held: by tension without a cortex,
-/// or by bending stiffness; short waves are stable.
+/// What keeps wrinkles off. bare: the bulk alone; loses stability at Biot's ratio. membrane: an elastic cortex without
+/// bending stiffness; it does where it is compressed along the meridian more than the bulk below supports. held: by
+/// tension without a cortex, or by bending stiffness; short wrinkles do not grow, but a cortex may still collapse.
 enum class SurfaceKind { bare, membrane, held };
 SurfaceKind surface_kind(const Media&);
 
 /// The absolute error that rounding leaves of a deformation: the digits of area and perimeter cancel. No deformation is
 /// resolved better, whatever relative accuracy is wanted.
 inline constexpr double deformation_round_off = 1e-12;
+
+/// A point of the surface at which a cortex loses its resistance to compression.
+struct WeakPoint {
+  double meridional = 1, hoop = 1;  ///< stretches
+  double place = 0;                 ///< along the flow from the middle of the cell, in its undeformed radius
+};
 
 /// What an explanation speaks of.
 struct LastState {
@@ -73,9 +79,10 @@ struct LastState {
   double wanted_error = 0;       ///< relative
   double stability_margin = 1;
   SurfaceKind surface = SurfaceKind::bare;
-  bool can_bend = true;    ///< not off the axis of a duct
-  bool is_coarse = false;  ///< the end was seen on coarse meshes alone
-  double known_end = 0;    ///< least modulus over the wanted one, where it was known beforehand
+  std::optional<WeakPoint> weak_point = {};  ///< if the surface loses its stability by collapse, not by wrinkles
+  bool can_bend = true;                      ///< not off the axis of a duct
+  bool is_coarse = false;                    ///< the end was seen on coarse meshes alone
+  double known_end = 0;                      ///< least modulus over the wanted one, where it was known beforehand
 };
 
 /// One sentence for the user: what happened, where, what to try.

@@ -39,7 +39,7 @@ struct StateNumbers {
   double min_meridional_stretch = no_value;    ///< over the surface
   double biot_ratio =
       no_value;  ///< least meridional over normal stretch; Mooney-Rivlin solids wrinkle below 0.2956 (eq:biot)
-  double stability_margin = no_value;  ///< of the surface against short wrinkles: 0 = limit (solve/surface_stability.h)
+  double stability_margin = no_value;  ///< of the surface: 0 = limit (solve/surface_stability.h)
   double min_tension = no_value;       ///< meridional, over the surface, in S R; a shell wrinkles where it is negative
 };
 
@@ -224,9 +224,9 @@ inline constexpr StateMeasure state_measures[] = {
      .member = &StateNumbers::biot_ratio,
      .settles_with = SettlesWith::points},
     {.name = "stability_margin",
-     .sentence =
-         "distance of the surface from short wrinkles: 1 for the sphere or where bending stiffness or tension hold the "
-         "surface, 0 at the limit",
+     .sentence = "distance of the surface from losing its stability, to short wrinkles (which bending stiffness or "
+                 "tension keep "
+                 "off) or by a cortex without resistance to compression: 1 for the sphere, 0 at the limit",
      .member = &StateNumbers::stability_margin,
      .columns = AlsoIn::both,
      .settles_with = SettlesWith::points},

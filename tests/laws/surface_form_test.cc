@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "derivative_error.h"
 #include "random_states.h"
 
@@ -25,6 +29,49 @@ double over_sphere(double radius, double x0, const Function& f) {
     sum += (i % 2 ? 4 : 2) * f(SurfaceFields<double>{{x0 + c, s}, {-s, c}, {-c, -s}, 0}, t);
   }
   return sum * M_PI / (3 * intervals);
+}
+
+/// Of modulus 1; the others' Poisson's ratio is 1/2.
+Cortex shell(CortexLaw law) { return {.law = law, .modulus = 1, .tension = 0.4}; }
+
+constexpr std::array shells{CortexLaw::linear, CortexLaw::thin_shell, CortexLaw::neo_hookean,
+                            CortexLaw::neo_hookean_reference, CortexLaw::skalak};
+
+TEST(ResistanceToCompression, IsTheSlopeOfTheTension) {
+  constexpr double h = test::difference_step;
+  RandomStates random;
+  for (const CortexLaw law : shells)
+    for (int i = 0; i < states; ++i) {
+      const double l1 = random.number(0.4, 1.5), l2 = random.number(0.6, 1.5);
+      const auto tension = [&](double along) { return principal_tensions(shell(law), along, l2)[0]; };
+      const double slope = l1 * (tension(l1 + h) - tension(l1 - h)) / (2 * h);
+      EXPECT_NEAR(resistance_to_compression(shell(law), l1, l2), slope,
+                  test::derivative_tolerance * std::max(1.0, slope));
+    }
+}
+
+TEST(ResistanceToCompression, AtRestIsThatOfAPlateBetweenWalls) {
+  // E2D / (1 - nu^2).
+  for (const CortexLaw law : shells)
+    EXPECT_NEAR(resistance_to_compression(shell(law), 1, 1), 1 / (1 - std::pow(poisson_ratio(shell(law)), 2)),
+                rounding);
+}
+
+TEST(ResistanceToCompression, OfSkalakAndThinShellEndsWhereTheTensionIsLeast) {
+  // l1^2 = (1 + C l2^2) / (3 (1 + C l2^4)); thin shell: T1 = K/2 (3 l1^2 + ...), least at l1 = 1 - l2 / 3.
+  for (const double l2 : {0.85, 1.0, 1.2}) {
+    const double skalak = std::sqrt((1 + l2 * l2) / (3 * (1 + std::pow(l2, 4)))), thin = 1 - l2 / 3;
+    EXPECT_NEAR(resistance_to_compression(shell(CortexLaw::skalak), skalak, l2), 0, rounding) << l2;
+    EXPECT_NEAR(resistance_to_compression(shell(CortexLaw::thin_shell), thin, l2), 0, rounding) << l2;
+    EXPECT_LT(resistance_to_compression(shell(CortexLaw::skalak), 0.95 * skalak, l2), 0) << l2;
+    EXPECT_LT(resistance_to_compression(shell(CortexLaw::thin_shell), 0.95 * thin, l2), 0) << l2;
+  }
+}
+
+TEST(ResistanceToCompression, OfNeoHookeanAndLinearShellsHasNoEnd) {
+  for (const CortexLaw law : {CortexLaw::neo_hookean, CortexLaw::neo_hookean_reference, CortexLaw::linear})
+    for (double l1 = 0.02; l1 < 3; l1 *= 1.1)
+      for (double l2 = 0.3; l2 < 3; l2 *= 1.1) EXPECT_GT(resistance_to_compression(shell(law), l1, l2), 0);
 }
 
 TEST(SurfacePoint, ASphereHasItsVolumeAndTheFirstMomentOfItsCentre) {

@@ -9,6 +9,7 @@
 #include "shape/measures.h"
 #include "solve/continuation.h"
 #include "solve/stationary.h"
+#include "solve/surface_stability.h"
 #include "solve/tube.h"
 
 namespace rheocyte::soft_cells_test {
@@ -16,7 +17,8 @@ namespace {
 
 /// HL60 cells in CellCarrier, with the moduli that they have at rest times a factor, under an axial tension that goes
 /// with the stress at the wall; bending in kBT.
-Problem hl60(double factor, double bending, const std::string& section = "tube", double rate = 0.12) {
+Problem hl60(double factor, double bending, const std::string& section = "tube", double rate = 0.12,
+             const std::string& law = "neo-hookean") {
   return problem_of(parse_case(
       fmt::format(R"(
 [channel]
@@ -34,14 +36,14 @@ radius_um = 6.5
 law = "neo-hookean"
 young_modulus_kPa = {}
 [cell.cortex]
-law = "neo-hookean"
+law = "{}"
 modulus_mN_per_m = {}
 tension_ratio = 0.615
 bending_kBT = {}
 [numerics]
 accuracy = 1e-2
 )",
-                  section, rate, 192 * std::pow(rate / 0.04, 0.6548), 0.096 * factor, 1.139 * factor, bending),
+                  section, rate, 192 * std::pow(rate / 0.04, 0.6548), 0.096 * factor, law, 1.139 * factor, bending),
       "case"));
 }
 
@@ -53,6 +55,21 @@ TEST(SoftCells, ADentedCellHasAState) {
   EXPECT_LT(state.estimated_error, 1e-2);
   EXPECT_NEAR(state.shape.deformation, 0.0969, 0.01 * 0.0969);
   EXPECT_LT(std::abs(state.relative_volume_change), 1e-4);
+}
+
+TEST(SoftCells, ACortexThatResistsNoMoreEndsTheBranch) {
+  // The tension of the law has its minimum at a stretch of 0.613 where the rear is compressed most: at 0.925 of the
+  // moduli by finer meshes, too.
+  const auto skalak = [](double factor) { return solve_stationary(hl60(factor, 1e4, "tube", 0.04, "skalak")); };
+  const StationaryState stiffer = skalak(0.98), softer = skalak(0.8);
+  EXPECT_EQ(stiffer.outcome.status, Status::converged) << stiffer.outcome.message;
+  EXPECT_GT(stiffer.stability_margin, 0);
+  EXPECT_NEAR(stiffer.stability_margin, 0.060, 0.005);
+  EXPECT_EQ(softer.outcome.status, Status::surface_unstable) << softer.outcome.message;
+  EXPECT_NEAR(softer.outcome.reached * 0.925 / 0.8, 1, 0.02);
+  EXPECT_NEAR(softer.stability_margin, 0, small_margin);
+  EXPECT_NE(softer.outcome.message.find("loses its resistance to compression"), std::string::npos)
+      << softer.outcome.message;
 }
 
 TEST(SoftCells, ADentedCellInASquareHasAState) {

@@ -115,6 +115,17 @@ TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {
             std::string::npos);
 }
 
+TEST(Outcome, ACollapsedCortexIsToldByWhereItLostItsResistance) {
+  const LastState last{.deformation = 0.05, .surface = SurfaceKind::held, .weak_point = WeakPoint{0.613, 0.854, -0.95}};
+  for (const double reached : {0.4, 1.0}) {
+    const std::string sentence = explanation({Status::surface_unstable, "", reached}, last);
+    for (const char* part :
+         {"resistance to compression", "0.613 along", "0.854 around", "0.95 r0 behind", "neo-hookean"})
+      EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find("wrinkle"), std::string::npos) << sentence;
+  }
+}
+
 TEST(Outcome, ACellOffTheAxisIsNotOfferedTheBendingStiffnessThatItCannotHave) {
   for (const double reached : {0.0, 0.4}) {
     const std::string sentence =
