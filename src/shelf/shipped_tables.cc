@@ -4,7 +4,6 @@
 
 #include <system_error>
 
-#include "case/joined.h"
 #include "case/user_error.h"
 #include "store/build_info.h"
 #include "store/supplied_folder.h"
@@ -19,17 +18,16 @@ namespace {
 fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
 
 /// A name that is no table of this kind.
-[[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun) {
+[[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun,
+                         const std::string& usual) {
   const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
-  const auto tables = table_files(tables_folder(), kind);
-  const std::string names = joined(names_in(tables), ", ");
   for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
     if (other != kind && table_files(tables_folder(), other).contains(wanted))
-      throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, names));
+      throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, usual));
   throw UserError(fmt::format(
       "{}there is neither such a file nor such a folder. With the program comes {}; any other {} is made first, by "
       "`rheocyte table`, which takes from two minutes to two hours (docs/tables.md).",
-      place, names, noun));
+      place, usual, noun));
 }
 
 /// `usual`: the identifier of the one that is taken where none is wanted.
@@ -43,7 +41,7 @@ fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::s
     throw UserError(fmt::format(
         "rheocyte: the {} that comes with the program is missing in {}; install the program again, or give --table.",
         noun, tables_folder().string()));
-  if (found == shipped.end()) refuse(wanted.string(), kind, noun);
+  if (found == shipped.end()) refuse(wanted.string(), kind, noun, usual);
   return found->second;
 }
 
