@@ -184,11 +184,12 @@ Settings settings_of(PopulationOptions& o) {
   return together(
       {of_type(
            "MODEL", {"solid", "cortex", "effective"},
-           setting("model", "Cells", &o.model,
-                   "what the cells are: solid; effective, cells with a cortex in the proportions of HL60 cells, by "
-                   "their medians of area, deformation and inertia ratio; or cortex, for which outlines determine bulk, "
-                   "cortex and tensions",
-                   "solid")),
+           setting(
+               "model", "Cells", &o.model,
+               "what the cells are: solid; effective, cells with a cortex in the proportions of HL60 cells, by "
+               "their medians of area, deformation and inertia ratio; or cortex, for which outlines determine bulk, "
+               "cortex and tensions",
+               "solid")),
        seen_section(o.section),
        of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
                setting("by", "By", &o.by,
@@ -202,7 +203,8 @@ Settings settings_of(PopulationOptions& o) {
                setting("dose", "a dose", &o.doses,
                        "the dose of a condition, e.g. drug=0.05; the first condition has dose 0 if no other is given. "
                        "Reports the trend over the doses and the EC50")),
-       of_type("UNIT", {}, setting("dose_unit", "Unit of the dose", &o.dose_unit, "for words and pictures, e.g. ug/ml", "none")),
+       of_type("UNIT", {},
+               setting("dose_unit", "Unit of the dose", &o.dose_unit, "for words and pictures, e.g. ug/ml", "none")),
        setting("shared_spread", "Shared spread", &o.shared_spread,
                "of solids: one spread of radius and modulus for all recordings of a condition"),
        outline_noise(o.outline_noise_um),

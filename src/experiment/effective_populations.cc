@@ -61,7 +61,8 @@ EffectivePopulations::EffectivePopulations(const PopulationOptions& options)
     throw UserError("rheocyte: --table is not for --model effective, which takes the tables of the program.");
   if (tables_.proportioned().empty())
     throw UserError(
-        "rheocyte: the tables of --model effective (combined_HL-2D-NH-26.cbor) are missing; install the program again.");
+        "rheocyte: the tables of --model effective (combined_HL-2D-NH-26.cbor) are missing; install the program "
+        "again.");
 }
 
 std::string EffectivePopulations::systematic_errors(std::span<const RecordingReport> recordings) const {

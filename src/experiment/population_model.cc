@@ -27,7 +27,8 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
   }
   if (options.model.empty() || options.model == "solid") {
     if (options.section)
-      throw UserError("rheocyte: --section is for --model cortex and effective; solids have tables of the square channel itself.");
+      throw UserError(
+          "rheocyte: --section is for --model cortex and effective; solids have tables of the square channel itself.");
     if (options.outline_noise_um.value_or(0) > 0 && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
       throw UserError(
           fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
@@ -35,7 +36,8 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
                       options.by));
     return std::make_unique<SolidPopulations>(options);
   }
-  throw UserError(fmt::format("rheocyte: --model {}: it must be solid, cortex or effective.", one_line(options.model, 40)));
+  throw UserError(
+      fmt::format("rheocyte: --model {}: it must be solid, cortex or effective.", one_line(options.model, 40)));
 }
 
 void check_events_of_population(const RecordingReport& report) {

@@ -19,8 +19,9 @@ std::vector<RecordingReports> setups_of(const std::vector<RecordingReport>& reco
   std::vector<RecordingReports> setups;
   for (const RecordingReport& r : recordings) {
     if (!r.estimate(PopulationQuantity::axial_tension)) continue;
-    const auto alike = std::ranges::find_if(
-        setups, [&](const RecordingReports& setup) { return differences_within({setup.front(), &r}).empty(); });
+    const auto alike = std::ranges::find_if(setups, [&](const RecordingReports& setup) {
+      return differences_within({setup.front(), &r}).empty();
+    });
     if (alike == setups.end())
       setups.push_back({&r});
     else
@@ -40,12 +41,13 @@ std::string sentence_on(const RecordingReports& setup) {
     stress += std::log(setup[k]->wall_stress_Pa()) / double(setup.size());
   }
   const bool is_one = std::max(std::expm1(greatest - mean), -std::expm1(least - mean)) < most_from_mean;
-  return fmt::format("axial tension in {} recordings of one set-up: {:.0f} Pa ({:.0f} to {:.0f}), {:.2f} of the wall "
-                     "shear stress: {}",
-                     setup.size(), std::exp(mean), std::exp(least), std::exp(greatest), std::exp(mean - stress),
-                     is_one ? "one tension, as the model requires"
-                            : "not one tension; the recordings were not measured alike, or their cells differ in the "
-                              "proportions of bulk and cortex");
+  return fmt::format(
+      "axial tension in {} recordings of one set-up: {:.0f} Pa ({:.0f} to {:.0f}), {:.2f} of the wall "
+      "shear stress: {}",
+      setup.size(), std::exp(mean), std::exp(least), std::exp(greatest), std::exp(mean - stress),
+      is_one ? "one tension, as the model requires"
+             : "not one tension; the recordings were not measured alike, or their cells differ in the "
+               "proportions of bulk and cortex");
 }
 
 }  // namespace

@@ -84,9 +84,7 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   cell.softest_kPa = found.softest_kPa;
   cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
   if (!cell.is_found()) return cell;
-  const auto modulus = [&](Modulus m) {
-    return Median{by_scatter.value(m), by_scatter.error(m), in_common.error(m)};
-  };
+  const auto modulus = [&](Modulus m) { return Median{by_scatter.value(m), by_scatter.error(m), in_common.error(m)}; };
   cell.effective_kPa = {by_scatter.effective_modulus_kPa, by_scatter.effective_modulus_error_kPa,
                         in_common.effective_modulus_error_kPa};
   cell.stiffness_kPa = {by_scatter.stiffness_kPa, by_scatter.stiffness_error_kPa, in_common.stiffness_error_kPa};
@@ -96,7 +94,8 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   cell.axial_tension_Pa = {by_scatter.axial_tension_Pa, by_scatter.axial_tension_error_Pa,
                            in_common.axial_tension_error_Pa};
   cell.radius_um = by_scatter.value(Modulus::cortex) / (by_scatter.stiffness_kPa - by_scatter.value(Modulus::young));
-  const double of_events = std::pow(by_scatter.effective_modulus_error_kPa, 2) * double(cell.events) / variance_of_median,
+  const double of_events =
+                   std::pow(by_scatter.effective_modulus_error_kPa, 2) * double(cell.events) / variance_of_median,
                of_pixels = pixel_size_um > 0 ? std::pow(found.of_picture.effective_modulus_error_kPa, 2) : 0;
   cell.spread = std::sqrt(std::max(of_events - of_pixels, 0.0)) / cell.effective_kPa.value;
   if (laws.size() > 1) {
@@ -116,8 +115,7 @@ void add_errors_of_model(double reynolds, bool is_cortex_seen, EffectiveCell& ce
     median.common_error = std::hypot(median.common_error, median.value * std::hypot(of_all, of_law, of_proportions));
   };
   add(cell.effective_kPa, is_cortex_seen ? error_of_proportions : error_of_unseen_proportions);
-  for (Median* const of_parts :
-       {&cell.stiffness_kPa, &cell.young_kPa, &cell.cortex_mN_per_m, &cell.tension_mN_per_m})
+  for (Median* const of_parts : {&cell.stiffness_kPa, &cell.young_kPa, &cell.cortex_mN_per_m, &cell.tension_mN_per_m})
     add(*of_parts, stiffness_by_proportions);
   add(cell.axial_tension_Pa, tension_by_proportions);
 }

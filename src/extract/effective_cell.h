@@ -30,8 +30,8 @@ struct EffectiveCell {
   double radius_um = no_value;                          ///< at rest
   double spread = no_value;  ///< of ln of the effective modulus between cells, without the noise of their pictures
   double wall_stress_Pa = no_value;
-  double softest_kPa = no_value;        ///< effective modulus at the end of the table, of a softer cell
-  double over_other_law = no_value;     ///< the effective modulus over that by the other law of the cortex
+  double softest_kPa = no_value;     ///< effective modulus at the end of the table, of a softer cell
+  double over_other_law = no_value;  ///< the effective modulus over that by the other law of the cortex
   bool is_found() const { return place == EffectivePlace::inside; }
 
   /// For store/bytes.h.
@@ -51,8 +51,8 @@ inline constexpr std::size_t min_events_of_effective_cell = 20;
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
                              const Sight& sight, double pixel_size_um);
 
-/// What the model adds to the errors in common: inertia, height, and the proportions and the law of the cortex. Of cells
-/// whose outlines show a cortex the proportions are better known.
+/// What the model adds to the errors in common: inertia, height, and the proportions and the law of the cortex. Of
+/// cells whose outlines show a cortex the proportions are better known.
 void add_errors_of_model(double reynolds, bool is_cortex_seen, EffectiveCell& cell);
 
 }  // namespace rheocyte

@@ -77,9 +77,8 @@ Recommendation effective_recommendation(const EffectiveCell& cell) {
 
 std::string_view code_of(RecommendationReason reason) {
   constexpr std::array<std::string_view, 12> codes{
-      "model",  "shapes-unknown", "outlines",     "elongated",     "other-table",       "too-few-events",
-      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table",
-      "effective"};
+      "model",  "shapes-unknown", "outlines",     "elongated",     "other-table",        "too-few-events",
+      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table", "effective"};
   return codes.at(static_cast<std::size_t>(reason));
 }
 

@@ -106,7 +106,8 @@ std::string effective_bound_text(const Recommendation& r, const ShapeVerdict& v)
         v.effective.events, r.bound_kPa);
   if (v.effective.place == EffectivePlace::ambiguous)
     return fmt::format(
-        "no modulus is recommended: cells of different stiffness have the median area, deformation and inertia ratio of "
+        "no modulus is recommended: cells of different stiffness have the median area, deformation and inertia ratio "
+        "of "
         "these {} events, because they are long and hardly asymmetric. `rheocyte moduli` takes their outlines.",
         v.effective.events);
   const std::string_view what = v.effective.place == EffectivePlace::longer       ? "longer than the cells"

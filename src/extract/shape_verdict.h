@@ -86,7 +86,7 @@ struct ShapeVerdict {
   double asymmetry = no_value;      ///< median of c_3
   double radius_px = no_value;      ///< of the circle with the median area, where the size of the pixels is known
   Median elongation, axial_tension_Pa;
-  EffectiveCell effective;  ///< of cells that are longer than the flow makes them
+  EffectiveCell effective;              ///< of cells that are longer than the flow makes them
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
 

@@ -24,8 +24,8 @@ constexpr int mode_2 = feature_of_mode(2), mode_3 = feature_of_mode(3);
 /// the edge belong to a mask (extract/common_errors.h has the same parts of the deformation's).
 constexpr double left_of_picture = 0.39;
 constexpr int draws = 400;
-/// From which cells alike are looked for, in parts of the stiffness; those whose features cannot be distinguished at 90 %
-/// and whose moduli differ by more than this logarithm count.
+/// From which cells alike are looked for, in parts of the stiffness; those whose features cannot be distinguished at 90
+/// % and whose moduli differ by more than this logarithm count.
 constexpr std::array other_stiffnesses{0.35, 0.6, 1.7, 2.8};
 constexpr double same_chi_squared = 2.7, same_modulus = 0.1;
 /// Variances that leave the covariance regular where there are neither pixels nor a square channel.
@@ -82,21 +82,21 @@ ProportionedCells::ProportionedCells(const CombinedTable& table)
         table.spec.identifier));
 }
 
-ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const {
+ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
+                                                  double pixel_size_um) const {
   constexpr int rounds = 3;  // the change by the square hardly depends on the shape
   const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
   ShapeErrors by_square;
   if (sight.section == Section::square)
     for (int round = 0; round < rounds; ++round) {
       const ShapeVector smooth = in_tube + by_square.bias;
-      by_square = change_by_square(
-          {.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi /
-                     sight.flow.width_um,
-           .mode_2 = smooth(mode_2),
-           .mode_3 = smooth(mode_3),
-           .cortex_fraction = cell(x_fraction),
-           .cortex_tension = cell(x_fraction) * cell(x_ratio),
-           .thinning = simulated_.exponent - sight.flow.exponent});
+      by_square = change_by_square({.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 *
+                                              std::numbers::inv_sqrtpi / sight.flow.width_um,
+                                    .mode_2 = smooth(mode_2),
+                                    .mode_3 = smooth(mode_3),
+                                    .cortex_fraction = cell(x_fraction),
+                                    .cortex_tension = cell(x_fraction) * cell(x_ratio),
+                                    .thinning = simulated_.exponent - sight.flow.exponent});
     }
   by_square.covariance *= sight.error_factor * sight.error_factor;
   if (!(pixel_size_um > 0)) return {by_square, {}};

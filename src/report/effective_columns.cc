@@ -20,10 +20,9 @@ Columns<E> effective_columns() {
   ColumnList<E> list;
   const auto add = [&](const char* name, std::string_view unit, const char* label, const char* sentence,
                        Median E::*median) {
-    list.add_with_errors({name, unit, label, sentence, "", 0, digits_of_values},
-                         [median](const E& e) { return (e.*median).value; },
-                         [median](const E& e) { return (e.*median).error; },
-                         [median](const E& e) { return (e.*median).common_error; });
+    list.add_with_errors(
+        {name, unit, label, sentence, "", 0, digits_of_values}, [median](const E& e) { return (e.*median).value; },
+        [median](const E& e) { return (e.*median).error; }, [median](const E& e) { return (e.*median).common_error; });
   };
   add("effective_modulus_kPa", "kPa", "Effective Young's modulus",
       "modulus of the homogeneous solid that a small axial tension elongates as the cell with the median area, "

@@ -210,10 +210,11 @@ Columns<DoseReport> dose_columns() {
                          number(&DoseResponse::ec50_upper));
   list.add({.name = "ratio_at_large_dose", .sentence = "of the quantity, over that without a dose"},
            [](const D& d) { return std::exp(d.response.log_effect); });
-  list.add_with_interval({.name = "ratio_per_decade", .sentence = "of the quantity, for ten times the dose"},
-                         [](const D& d) { return std::exp(d.response.slope_per_decade); },
-                         [](const D& d) { return std::exp(d.response.slope_lower); },
-                         [](const D& d) { return std::exp(d.response.slope_upper); });
+  list.add_with_interval(
+      {.name = "ratio_per_decade", .sentence = "of the quantity, for ten times the dose"},
+      [](const D& d) { return std::exp(d.response.slope_per_decade); },
+      [](const D& d) { return std::exp(d.response.slope_lower); },
+      [](const D& d) { return std::exp(d.response.slope_upper); });
   list.add({.name = "p_of_trend"}, number(&DoseResponse::p));
   return std::move(list).columns();
 }

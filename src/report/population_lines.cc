@@ -103,8 +103,8 @@ std::string dose_line(const DoseReport& d, const PopulationReport& report) {
   const DoseResponse& r = d.response;
   const auto symbol = words_of(d.quantity).symbol;
   const std::string unit = report.dose_unit.empty() ? "" : " " + report.dose_unit;
-  std::string line = fmt::format("{} over the dose: ratio {:.3f} for ten times the dose", symbol,
-                                 std::exp(r.slope_per_decade));
+  std::string line =
+      fmt::format("{} over the dose: ratio {:.3f} for ten times the dose", symbol, std::exp(r.slope_per_decade));
   if (std::isfinite(r.p))
     line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g}", std::exp(r.slope_lower), std::exp(r.slope_upper), r.p);
   // Without an effect no dose has half of it.
@@ -112,7 +112,7 @@ std::string dose_line(const DoseReport& d, const PopulationReport& report) {
   if (r.ec50_lower > 0 && std::isfinite(r.ec50_upper))
     return line + fmt::format("; EC50 {:.3g}{} ({:.3g} .. {:.3g}), ratio {:.2f} at large doses", r.ec50, unit,
                               r.ec50_lower, r.ec50_upper, std::exp(r.log_effect));
-  return line + (r.ec50_lower > 0 ? fmt::format("; EC50 above {:.3g}{}", r.ec50_lower, unit)
+  return line + (r.ec50_lower > 0              ? fmt::format("; EC50 above {:.3g}{}", r.ec50_lower, unit)
                  : std::isfinite(r.ec50_upper) ? fmt::format("; EC50 below {:.3g}{}", r.ec50_upper, unit)
                                                : std::string("; the doses do not determine an EC50"));
 }

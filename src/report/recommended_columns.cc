@@ -23,7 +23,8 @@ std::string_view way_word(const R& r) {
 
 Columns<R> recommendation_columns() {
   ColumnList<R> list;
-  list.add({"modulus", "", "Recommended modulus", "\"none\", \"deformation\", \"elongated\" or \"effective\""}, way_word)
+  list.add({"modulus", "", "Recommended modulus", "\"none\", \"deformation\", \"elongated\" or \"effective\""},
+           way_word)
       .add_with_errors(
           {"young_modulus_median_kPa", "kPa", "Recommended E, median", "the modulus that is to be reported", "", 0,
            digits_of_values},

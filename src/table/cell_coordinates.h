@@ -6,9 +6,9 @@ namespace rheocyte {
 
 /// The coordinates of a cell. One of them is its progress along a branch. It is the deformation: all branches reach the
 /// same deformations and turn back at none, and states of equal deformation change least from branch to branch. Of a
-/// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have without
-/// the axial tension if this mode grew in proportion to 1 / S all along the branch: branches of all tensions end at
-/// similar stiffnesses.
+/// table of elongated cells, which have a deformation without flow, it is the third mode that the cell would have
+/// without the axial tension if this mode grew in proportion to 1 / S all along the branch: branches of all tensions
+/// end at similar stiffnesses.
 inline constexpr int x_radius = 0,                ///< ln(r0 / um)
     x_fraction = 1,                               ///< of the cortex in S
     x_progress = 2,                               ///< its logarithm

@@ -128,9 +128,8 @@ CombinedInterpolation::CombinedInterpolation(const CombinedTable& table)
       ratios_(table.spec.tension_ratios),
       axial_ratios_(table.spec.is_elongated() ? table.spec.axial_ratios : std::vector{0.0}) {
   if (radii_.size() < 2)
-    throw UserError(
-        fmt::format("{}: the combined table has branches of {} radius; it needs two radii.", table.spec.identifier,
-                    radii_.empty() ? "no" : "one"));
+    throw UserError(fmt::format("{}: the combined table has branches of {} radius; it needs two radii.",
+                                table.spec.identifier, radii_.empty() ? "no" : "one"));
   for (const double radius : radii_) log_radii_.push_back(std::log(radius));
   double least = -1e9, greatest = -1e9;
   for (const double axial : axial_ratios_)

@@ -104,11 +104,11 @@ TEST(EffectiveCell, RatiosOfConditionsAreThoseOfTheCells) {
         const std::uint64_t seed = 1000 + 10 * std::uint64_t(experiment) + k + (ratio < 1 ? 5000 : 0);
         CellRandom level(seed, 0, Purpose::arrival);
         const bool is_treated = k >= 3;
-        const EffectiveCell found = effective_of(
-            seen_events({is_treated ? 0.36 * ratio : 0.36, 0.2, 0.05 * level.normal(), 80}, seed));
+        const EffectiveCell found =
+            effective_of(seen_events({is_treated ? 0.36 * ratio : 0.36, 0.2, 0.05 * level.normal(), 80}, seed));
         ASSERT_TRUE(found.is_found());
-        means[is_treated].push_back({std::log(found.effective_kPa.value),
-                                     std::pow(found.effective_kPa.error / found.effective_kPa.value, 2)});
+        means[is_treated].push_back(
+            {std::log(found.effective_kPa.value), std::pow(found.effective_kPa.error / found.effective_kPa.value, 2)});
       }
       const ConditionDifference d = unpaired_difference(means[0], means[1], {});
       const double truth = std::log(effective_of(6.3, 0.36 * ratio) / effective_of(6.3, 0.36));
