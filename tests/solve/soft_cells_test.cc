@@ -64,6 +64,14 @@ TEST(SoftCells, ADentedCellInASquareHasAState) {
   EXPECT_NEAR(state.shape.deformation, 0.07927, state.estimated_error * state.shape.deformation);
 }
 
+TEST(SoftCellsSlow, TheSoftestCellsInASquareHaveStates) {
+  // As in recordings, d = 0.119; on meshes with 6 and 8 elements along the side.
+  const StationaryState state = solve_stationary(hl60(0.72, 1e4, "square"));
+  ASSERT_EQ(state.outcome.status, Status::converged) << state.outcome.message;
+  EXPECT_NEAR(state.shape.deformation, 0.1197, state.estimated_error * state.shape.deformation);
+  EXPECT_LT(std::abs(state.relative_volume_change), 1e-3);
+}
+
 TEST(SoftCells, AStateDoesNotDependOnTheMesh) {
   // A cell of d = 0.07 on the mesh round the sphere, and on one that is fitted to it, with other elements.
   const Problem problem = hl60(1.4, 3e4);
