@@ -184,6 +184,7 @@ void follow_rims(Geometry& duct) {
   std::erase_if(duct.ways, [](const CoarseWay& way) { return way.resolution.degree > degree; });
   for (CoarseWay& way : duct.ways) way.fits = Fits::once;
   for (const Subdivision& subdivision : {at_rims, finer_at_rims}) duct.ways.push_back({{subdivision, degree}});
+  duct.rungs.front().is_rough_at_rims = true;
   duct.rungs.push_back({.subdivision = at_rims, .first_degree = degree, .last_degree = degree, .goes_on = true});
   duct.rungs.push_back({.subdivision = finer_at_rims, .first_degree = degree, .last_degree = last, .goes_on = true});
   duct.min_step_before_refining = duct.min_step_at_last;
