@@ -140,7 +140,7 @@ int rheocyte::measure(int argc, char** argv) {
     const StationaryState state = session.solve(problem_of(c));
     if (state.outcome.status != Status::converged) continue;
     ++k;
-    const Eigen::MatrixX2d outline = mirrored(measure_state(state, problem_of(c), scales_of(c)).contour);
+    const Eigen::MatrixX2d outline = mirrored(measure_state(state, scales_of(c)).contour);
     std::vector<ShapeVector> seen;
     for (int place = 0; place < places; ++place)
       seen.push_back(features_in_pixels(outline, pixel_um, {random.uniform() - 0.5, random.uniform() - 0.5}));

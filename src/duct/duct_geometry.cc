@@ -13,12 +13,27 @@ constexpr double core_size = 0.5, core_bulge = 0.55;
 constexpr double max_middle = 0.85;
 
 /// The cube [-1, 1]^3 onto the unit ball.
-DuctPoint ball(const DuctPoint& c) {
+DuctPoint smooth_ball(const DuctPoint& c) {
   const auto stretched = [&](int i, int j, int k) {
     const double b = c(j) * c(j), d = c(k) * c(k);
     return c(i) * std::sqrt(1 - b / 2 - d / 2 + b * d / 3);
   };
   return {stretched(0, 1, 2), stretched(1, 2, 0), stretched(2, 0, 1)};
+}
+
+/// The cube onto the cylinder of radius 1, wedge by wedge; on its side angles round the flow are nearly even.
+DuctPoint cylinder(const DuctPoint& c) {
+  constexpr double evenly = 0.22;
+  const double y = std::abs(c(1)), z = std::abs(c(2)), least = std::min(y, z),
+               factor = 1 - evenly * std::abs(y * y - z * z), scale = 1 / std::hypot(1, factor * least);
+  return {c(0), scale * (y < z ? factor : 1) * c(1), scale * (y < z ? 1 : factor) * c(2)};
+}
+
+/// The cylinder onto the unit ball: planes across the flow on the cylinder's side become circles of latitude, as which
+/// the rim of a dented cell runs round it.
+DuctPoint ball_of_cylinder(const DuctPoint& c) {
+  const double along = std::sqrt(1 - c.tail<2>().squaredNorm() / 2), across = std::sqrt(1 - c(0) * c(0) / 2);
+  return {along * c(0), across * c(1), across * c(2)};
 }
 
 }  // namespace
@@ -34,12 +49,23 @@ double DuctGeometry::area() const {
   return shape_.section == Section::tube ? std::numbers::pi : 4 * shape_.extent.width * shape_.extent.height;
 }
 
+DuctGeometry DuctGeometry::across_wedges() const {
+  DuctGeometry geometry = *this;
+  geometry.has_wedges_ = false;
+  return geometry;
+}
+
+DuctPoint DuctGeometry::ball(const DuctPoint& cube) const {
+  return has_wedges_ ? ball_of_cylinder(cylinder(cube)) : smooth_ball(cube);
+}
+
 DuctPoint DuctGeometry::surface(const DuctPoint& cube) const {
   return shape_.radius * ball(cube) + DuctPoint(0, shape_.offset, 0);
 }
 
 DuctPoint DuctGeometry::core(const DuctPoint& cube) const {
-  return shape_.radius * core_size * (core_bulge * ball(cube) + (1 - core_bulge) / std::sqrt(3.0) * cube) +
+  const DuctPoint flat = has_wedges_ ? cylinder(cube) / std::sqrt(2.0) : cube / std::sqrt(3.0);
+  return shape_.radius * core_size * (core_bulge * ball(cube) + (1 - core_bulge) * flat) +
          DuctPoint(0, shape_.offset, 0);
 }
 

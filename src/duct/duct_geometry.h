@@ -1,6 +1,6 @@
 // A straight duct with a cell, as a few smooth blocks (docs/theory-square.md, sec. mesh). The cell is a ball; its
-// surface is the surface of the cube [-1, 1]^3 under a smooth map, and the cube's faces X = 1, X = -1 look along the
-// flow.
+// surface is the surface of the cube [-1, 1]^3 under a map that is smooth in each wedge, and the cube's faces X = 1,
+// X = -1 look along the flow.
 //
 // Lengths in the duct's half width h (in a rectangle half the lesser of width and height, in a tube the radius); x
 // along the flow, y along the width, z along the height.
@@ -33,6 +33,8 @@ class DuctGeometry {
  public:
   explicit DuctGeometry(const DuctShape&);
   DuctGeometry(Section section, double radius_ratio) : DuctGeometry(DuctShape{section, radius_ratio}) {}
+  /// The same for elements across the planes y = z and y = -z, where the map of wedges has kinks.
+  DuctGeometry across_wedges() const;
 
   /// Where a part's point lies whose coordinate `outward` runs from 0 to 1: in the ring from the core to the surface,
   /// in the layers from there to the box or the wall, in the ends from the box to the channel's end, and on to 2 where
@@ -61,6 +63,8 @@ class DuctGeometry {
   double last_outward() const { return shape_.run_out > 0 ? 2 : 1; }
 
  private:
+  /// A point of the cube in the unit ball.
+  DuctPoint ball(const DuctPoint& cube) const;
   DuctPoint surface(const DuctPoint& cube) const;
   DuctPoint core(const DuctPoint& cube) const;
   /// x of a point of the box or the wall, and its place across the duct, where the cell is at `centre` along y.
@@ -71,6 +75,7 @@ class DuctGeometry {
 
   DuctShape shape_;
   double box_, min_length_, half_length_;
+  bool has_wedges_ = true;
 };
 
 /// How much of the surface's axial displacement the wall's points take over, as the mesh of the tube has it

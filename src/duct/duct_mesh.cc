@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <ranges>
+#include <utility>
 
 #include "shape/curve.h"
 
@@ -59,6 +61,12 @@ struct CubeFace {
 
 namespace {
 
+/// Below a sharp rim the stress of the cell varies over its radius.
+std::vector<double> ring_breaks(int n) {
+  constexpr double thinner = 0.43;  // a layer than that below it
+  return breaks(n, 0, 1, std::pow(thinner, n));
+}
+
 /// From the box to the end of the mesh. Where the mesh has a run-out the wall is not straight, and its corners pass by
 /// all elements; else nothing is disturbed beyond the shortest duct.
 std::vector<double> end_breaks(const DuctGeometry& geometry, int n) {
@@ -73,10 +81,9 @@ std::vector<double> end_breaks(const DuctGeometry& geometry, int n) {
   return ends;
 }
 
-std::vector<CubeFace> cube_faces(Symmetry symmetry, const DuctSubdivision& n) {
+/// `x` are the breaks of the side.
+std::vector<CubeFace> cube_faces(Symmetry symmetry, const std::vector<double>& x, int across) {
   std::vector<CubeFace> faces;
-  const auto x = side_breaks(n);
-  const int across = n.across;
   if (across == 0) {
     for (const Image& image : wedges_of(symmetry)) {
       faces.emplace_back(Face::front, image, triangle());
@@ -97,7 +104,7 @@ std::vector<CubeFace> cube_faces(Symmetry symmetry, const DuctSubdivision& n) {
 
 std::vector<DuctElement> section_elements(Symmetry symmetry, int across) {
   std::vector<DuctElement> elements;
-  for (const CubeFace& face : cube_faces(symmetry, {.along = 1, .across = across})) {
+  for (const CubeFace& face : cube_faces(symmetry, {-1, 1}, across)) {
     if (face.face != Face::front) continue;
     for (const Quadrilateral& corners : face.quadrilaterals)
       elements.push_back({Part::end, Face::front, face.image, corners, {0, 1}});
@@ -114,6 +121,17 @@ int duct_layers_for(const DuctGeometry& geometry, const DuctSubdivision& n) {
   return std::max(1, int(std::lround(std::log2(1 + 1 / first))));
 }
 
+int DuctElement::direction_along() const {
+  if (part == Part::core) return 2;
+  if (face != Face::side) return -1;
+  return corners[0](1) == corners[1](1) ? 1 : 0;
+}
+
+std::array<double, 2> DuctElement::along() const {
+  if (part == Part::core) return outward;
+  return {corners[0](1), corners[3](1)};
+}
+
 DuctPoint DuctElement::on_cube(double s, double t, double xi3) const {
   const FacePoint at =
       (1 - s) * (1 - t) * corners[0] + s * (1 - t) * corners[1] + (1 - s) * t * corners[2] + s * t * corners[3];
@@ -122,14 +140,18 @@ DuctPoint DuctElement::on_cube(double s, double t, double xi3) const {
   return image({face == Face::front ? 1.0 : -1.0, at(0), at(1)});
 }
 
-DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision, Symmetry symmetry)
-    : geometry_(geometry), subdivision_(subdivision), symmetry_(symmetry) {
+DuctMesh::DuctMesh(const DuctGeometry& geometry, const DuctSubdivision& subdivision, Symmetry symmetry,
+                   std::vector<double> side_breaks)
+    : geometry_(subdivision.across == 0 ? geometry : geometry.across_wedges()),
+      subdivision_(subdivision),
+      symmetry_(symmetry),
+      side_breaks_(std::move(side_breaks)) {
   const int count = subdivision.layers > 0 ? subdivision.layers : duct_layers_for(geometry, subdivision);
   const auto layers = breaks(count, 0, 1, std::pow(2.0, count));
-  const auto ends = end_breaks(geometry, subdivision.axial);
-  for (const CubeFace& face : cube_faces(symmetry, subdivision)) {
-    if (face.face == Face::front) add(Part::core, face, side_breaks(subdivision));
-    add(Part::ring, face, {0, 1});
+  const auto ends = end_breaks(geometry, subdivision.axial), ring = ring_breaks(subdivision.ring);
+  for (const CubeFace& face : cube_faces(symmetry, side_breaks_, subdivision.across)) {
+    if (face.face == Face::front) add(Part::core, face, side_breaks_);
+    add(Part::ring, face, ring);
     add(Part::layers, face, layers);
     if (face.face != Face::side) add(Part::end, face, ends);
   }
@@ -146,6 +168,21 @@ void DuctMesh::add(Part part, const CubeFace& face, const std::vector<double>& o
 DuctPoint DuctMesh::point(int element, const Eigen::Vector3d& xi) const {
   const DuctElement& self = elements_[element];
   return geometry_.map(self.part, self.on_cube(xi(0), xi(1), xi(2)), self.outward_at(xi(2)));
+}
+
+Eigen::MatrixX3d DuctMesh::points(int element, const Eigen::VectorXd& xi) const {
+  const Eigen::Index n = xi.size();
+  Eigen::MatrixX3d places(n * n * n, 3);
+  for (Eigen::Index k = 0; k < places.rows(); ++k)
+    places.row(k) = point(element, {xi(k % n), xi(k / n % n), xi(k / (n * n))}).transpose();
+  return places;
+}
+
+std::vector<double> DuctMesh::surface_places() const {
+  std::vector<double> places{0, 0.5};
+  for (const double height : std::views::reverse(side_breaks_)) places.push_back(2 - height);
+  places.insert(places.end(), {3.5, 4});
+  return places;
 }
 
 NodeNumbers DuctMesh::number_nodes(int degree) const {

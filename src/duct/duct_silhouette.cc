@@ -92,7 +92,7 @@ class Envelope {
 
   Pieces pieces(const VectorXd& along) const {
     Pieces result;
-    const std::vector<double> heights = side_breaks(surface_.space().mesh().subdivision());
+    const std::vector<double>& heights = surface_.space().mesh().side_breaks();
     const auto add = [&](Face face, double from, double to) {
       auto& piece = result.emplace_back();
       for (const double u : along) piece.push_back(place(face, from + u * (to - from)));

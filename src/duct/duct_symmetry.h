@@ -31,6 +31,7 @@ struct Image {
   DuctPoint operator()(const DuctPoint& x) const { return {x(0), y * x(swaps ? 2 : 1), z * x(swaps ? 1 : 2)}; }
   /// Whether right-handed becomes left-handed.
   bool mirrors() const { return swaps != (y * z < 0); }
+  bool operator==(const Image&) const = default;
 };
 
 /// The wedges of the part that is computed, and the images of this part that make the duct.

@@ -1,9 +1,13 @@
 #include "duct/fit_duct.h"
 
 #include <algorithm>
+#include <cmath>
+#include <ranges>
 
 #include "duct/duct_integrals.h"
+#include "duct/duct_silhouette.h"
 #include "fem/liquid_mesh.h"
+#include "fem/requested_elements.h"
 
 namespace rheocyte {
 namespace {
@@ -11,22 +15,13 @@ namespace {
 /// Of the mesh that is fitted: a higher one costs more than it gains.
 constexpr int max_fitted_degree = 2;
 
-/// Of the nodes of an element at some degree, round the undeformed cell.
-MatrixXd rest_places(const DuctMesh& mesh, int e, const VectorXd& s) {
-  const int n = int(s.size());
-  MatrixXd places(n * n * n, 3);
-  for (int k = 0; k < places.rows(); ++k)
-    places.row(k) = mesh.point(e, {s(k % n), s(k / n % n), s(k / (n * n))}).transpose();
-  return places;
-}
-
 /// Nodes of the duct's ends stay, those at walls and in mirror planes slide.
 LiquidMesh<3> liquid_mesh(const DuctSpace& space, const VectorXd& unknowns, const ReferenceElement<3>& reference) {
   const DuctMesh& mesh = space.mesh();
   std::vector<LiquidElement> elements;
   for (int e = 0; e < int(space.elements().size()); ++e) {
     if (space.elements()[e].liquid)
-      elements.push_back({e, points_of_nodes(space, e, unknowns), rest_places(mesh, e, reference.nodes_1d)});
+      elements.push_back({e, points_of_nodes(space, e, unknowns), mesh.points(e, reference.nodes_1d)});
   }
   LiquidMesh<3> liquid(space.reference(), reference, mesh.number_nodes(reference.degree()), std::move(elements));
   using Component = LiquidMesh<3>::Component;
@@ -50,7 +45,59 @@ ReferenceElement<3> fitted_reference(const DuctSpace& space) {
   return ReferenceElement<3>(std::min(space.reference().degree(), max_fitted_degree));
 }
 
+/// From front to rear, as parts of the way.
+double place_of(double height) { return (1 - height) / 2; }
+double height_at(double place) { return 1 - 2 * place; }
+
+/// A meridian in a plane of symmetry, on the side.
+std::vector<LinePoint> line_on_side(const DuctSpace& space, const VectorXd& unknowns, Camera camera) {
+  const VectorXd along = VectorXd::LinSpaced(33, 0, 1);
+  const DuctMeridian meridian = duct_meridian(space, unknowns, camera, along);
+  const std::vector<double>& heights = space.mesh().side_breaks();
+  const Eigen::Index pieces = Eigen::Index(heights.size()) - 1, points = along.size(),
+                     before = (meridian.rest_angle.size() / points - pieces) / 2;
+  std::vector<LinePoint> line;
+  std::vector<double> angle;
+  for (Eigen::Index i = 0; i < pieces * points; ++i) {
+    if (i > 0 && i % points == 0) continue;
+    const auto rear = std::size_t(pieces - 1 - i / points);
+    const Eigen::Index row = before * points + i;
+    line.push_back({place_of(std::lerp(heights[rear + 1], heights[rear], along(i % points))), 0,
+                    meridian.stretch(row, 0), space.mesh().geometry().radius() * meridian.curvature(row, 0)});
+    angle.push_back(meridian.rest_angle(row));
+  }
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, line.size() - 1);
+    line[i].angle = (angle[b] - angle[a]) / (line[b].place - line[a].place);
+  }
+  return line;
+}
+
+RequestedElements requested_on_side(const DuctSpace& space, const VectorXd& unknowns) {
+  std::vector<std::vector<LinePoint>> lines;
+  for (const Camera camera : mirror_cameras(space.mesh().symmetry()))
+    lines.push_back(line_on_side(space, unknowns, camera));
+  return RequestedElements(lines);
+}
+
+std::vector<double> places_between_elements(const DuctSpace& space) {
+  std::vector<double> places;
+  for (const double height : std::views::reverse(space.mesh().side_breaks())) places.push_back(place_of(height));
+  return places;
+}
+
 }  // namespace
+
+std::vector<double> fitted_breaks(const DuctSpace& space, const VectorXd& unknowns, double evenly) {
+  const auto places = requested_on_side(space, unknowns).moved(places_between_elements(space), evenly);
+  std::vector<double> heights;
+  for (const double place : std::views::reverse(places)) heights.push_back(height_at(place));
+  return heights;
+}
+
+double surface_evenness(const DuctSpace& space, const VectorXd& unknowns) {
+  return requested_on_side(space, unknowns).evenness(places_between_elements(space));
+}
 
 double liquid_mesh_quality(const DuctSpace& space, const VectorXd& unknowns) {
   const ReferenceElement<3> reference = fitted_reference(space);
@@ -67,25 +114,6 @@ std::vector<DuctPoint> fitted_points(const DuctSpace& space, const VectorXd& unk
       if (!is_of_cell) points[nodes[k]] = space.node_points()[nodes[k]] + moves.row(k).transpose();
     }
   });
-  return points;
-}
-
-std::vector<DuctPoint> transferred_points(const DuctSpace& from, const DuctSpace& to) {
-  const VectorXd& own = to.reference().nodes_1d;
-  const MatrixXd basis = from.reference().lagrange(own);
-  const double scale = to.mesh().geometry().radius() / from.mesh().geometry().radius();
-  std::vector<DuctPoint> points = to.node_points();
-  for (int e = 0; e < int(to.elements().size()); ++e) {
-    if (!to.elements()[e].liquid) continue;
-    const auto &nodes = from.nodes().of_element[e], &nodes_to = to.nodes().of_element[e];
-    MatrixXd moves = -rest_places(from.mesh(), e, from.reference().nodes_1d);
-    for (int k = 0; k < moves.rows(); ++k) moves.row(k) += from.node_points()[nodes[k]].transpose();
-    const MatrixXd places = rest_places(to.mesh(), e, own) + scale * at_other_nodes<3>(basis, moves);
-    for (int k = 0; k < places.rows(); ++k) {
-      const bool is_of_cell = to.displacement(nodes_to[k], 0) >= 0 || nodes_to[k] == to.fixed_node();
-      if (!is_of_cell) points[nodes_to[k]] = places.row(k).transpose();
-    }
-  }
   return points;
 }
 

@@ -11,8 +11,11 @@ double liquid_mesh_quality(const DuctSpace&, const VectorXd& unknowns);
 /// followed it back to its undeformed shape along their spokes.
 std::vector<DuctPoint> fitted_points(const DuctSpace&, const VectorXd& unknowns);
 
-/// Points for DuctSpace::set_points: the liquid's nodes are moved as those of the same elements at another degree, or
-/// round another cell.
-std::vector<DuctPoint> transferred_points(const DuctSpace& from, const DuctSpace& to);
+/// Heights between elements along the side: `evenly` = 0 as they are, 1 even on the deformed cell, as
+/// RequestedElements has it on all meridians in planes of symmetry.
+std::vector<double> fitted_breaks(const DuctSpace&, const VectorXd& unknowns, double evenly);
+
+/// How even they are.
+double surface_evenness(const DuctSpace&, const VectorXd& unknowns);
 
 }  // namespace rheocyte

@@ -105,43 +105,4 @@ CellVolume cell_volume(const DuctSpace& space, const TensorElement& element, con
   return sum;
 }
 
-VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpace& to) {
-  const ReferenceElement<3>&source = from.reference(), &target = to.reference();
-  const MatrixXd basis = source.lagrange(target.nodes_1d);
-  VectorXd result = VectorXd::Zero(to.unknowns());
-  result(to.cell_velocity()) = unknowns(from.cell_velocity());
-  if (to.turns()) {
-    result(to.drift()) = unknowns(from.drift());
-    result(to.spin()) = unknowns(from.spin());
-  }
-  double shift = 0;  // of the node that is held there
-  for (int e = 0; e < int(to.elements().size()); ++e) {
-    const auto &nodes = from.nodes().of_element[e], &nodes_to = to.nodes().of_element[e];
-    const bool liquid = to.elements()[e].liquid;
-    MatrixXd field(source.nodes(), 3);
-    for (int k = 0; k < source.nodes(); ++k) {
-      for (int c = 0; c < 3; ++c) {
-        field(k, c) = liquid ? from.velocity(nodes[k], c).value(unknowns)
-                             : duct_point(from, unknowns, nodes[k])(c) - from.node_points()[nodes[k]](c);
-      }
-    }
-    const MatrixXd values = apply_in_each_direction(basis, field);
-    for (int k = 0; k < target.nodes(); ++k) {
-      if (!liquid && nodes_to[k] == to.fixed_node()) shift = values(k, 0);
-      for (int c = 0; c < 3; ++c) {
-        const int unknown = liquid ? to.velocity(nodes_to[k], c).unknown : to.displacement(nodes_to[k], c);
-        if (unknown >= 0 && !to.is_motion(unknown)) result(unknown) = values(k, c);
-      }
-    }
-    // The modes are orthonormal, and those of a degree begin with those of lower ones.
-    for (int k = 0; k < std::min(source.pressures(), target.pressures()) && !to.elements()[e].is_empty; ++k)
-      result(to.pressure(e, k)) = unknowns(from.pressure(e, k));
-  }
-  if (to.inner_pressure() >= 0) result(to.inner_pressure()) = unknowns(from.inner_pressure());
-  for (int i = 0; i < to.nodes().count; ++i) {
-    if (const int unknown = to.displacement(i, 0); unknown >= 0) result(unknown) -= shift;
-  }
-  return result;
-}
-
 }  // namespace rheocyte

@@ -31,7 +31,4 @@ CellVolume cell_volume(const DuctSpace&, const TensorElement&, const VectorXd& u
 /// The greatest shear rate sqrt(2 D:D) of the liquid between the planes across the duct through the cell's poles.
 double max_shear_rate(const DuctSpace&, const TensorElement&, const VectorXd& unknowns);
 
-/// The same fields in the unknowns of another degree on a mesh with the same elements.
-VectorXd transfer(const DuctSpace& from, const VectorXd& unknowns, const DuctSpace& to);
-
 }  // namespace rheocyte

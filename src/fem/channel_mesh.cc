@@ -24,10 +24,11 @@ std::vector<double> graded(int n, double ratio) {
   return breaks;
 }
 
-/// The breaks of a few intervals, or such as lie between them for another number of intervals.
+}  // namespace
+
 std::vector<double> like(const std::vector<double>& breaks, int n) {
-  const int last = int(breaks.size()) - 2;
   std::vector<double> between = uniform(n);
+  const int last = int(breaks.size()) - 2;
   for (double& b : between) {
     const double place = b * (last + 1);
     const int i = std::min(int(place), last);
@@ -35,8 +36,6 @@ std::vector<double> like(const std::vector<double>& breaks, int n) {
   }
   return between;
 }
-
-}  // namespace
 
 SurfaceBreaks like(const SurfaceBreaks& breaks, const SurfaceBreaks& numbers) {
   return {like(breaks.front, int(numbers.front.size()) - 1), like(breaks.top, int(numbers.top.size()) - 1)};

@@ -47,6 +47,8 @@ struct MeshElement {
 struct SurfaceBreaks {
   std::vector<double> front, top;
 };
+/// The breaks of a few intervals, or such as lie between them for another number of intervals.
+std::vector<double> like(const std::vector<double>& breaks, int intervals);
 SurfaceBreaks surface_breaks(const Subdivision&, Spacing);
 /// Those of another mesh, or such as lie between them, as many as given.
 SurfaceBreaks like(const SurfaceBreaks&, const SurfaceBreaks& numbers);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/element_integrals.h"
 #include "fem/liquid_mesh.h"
 #include "fem/observe.h"
+#include "fem/requested_elements.h"
 
 namespace rheocyte {
 namespace {
@@ -13,11 +15,6 @@ namespace {
 /// Of the mesh that is fitted: it need not have all wiggles of a fine one's surface.
 constexpr int max_degree = 6;
 constexpr double same_line = 1e-10;
-/// Elements on top are at most so long (in the cell's radius), turn by at most so much, and take at most so much of the
-/// undeformed top (both in radians).
-constexpr double longest = 0.6, most_turned = 0.5, widest = 0.6;
-/// By how much their length may grow along themselves.
-constexpr double growth = 0.4;
 
 /// Nodes of the channel's ends stay, those on the axis and at the wall slide.
 LiquidMesh<2> liquid_mesh(const Discretisation& space, const VectorXd& unknowns, const ReferenceElement<2>& reference) {
@@ -45,76 +42,31 @@ ReferenceElement<2> fitted_reference(const Discretisation& space) {
   return ReferenceElement<2>(std::min(space.reference().degree(), max_degree));
 }
 
-/// How long an element may be at places on top, from 0 to 1, as a part of it.
-struct ElementSizes {
-  std::vector<double> place, size;
-};
-
-ElementSizes wanted_sizes(const Discretisation& space, const VectorXd& unknowns) {
+/// Along the top, from front to rear.
+RequestedElements requested_on_top(const Discretisation& space, const VectorXd& unknowns) {
   constexpr int points_per_edge = 33;
   const ChannelGeometry& geometry = space.mesh().geometry();
   const double first = geometry.angle(Sector::top, 0), angle = geometry.angle(Sector::top, 1) - first;
   const SurfaceState surface = surface_state(space, unknowns, points_per_edge);
-  ElementSizes sizes;
+  std::vector<LinePoint> line;
   for (Eigen::Index i = 0; i < surface.angle.size(); ++i) {
     const double here = (surface.angle(i) - first) / angle;
-    if (here < -same_line || here > 1 + same_line || (!sizes.place.empty() && here <= sizes.place.back())) continue;
-    const double length = surface.stretch(i, 0) * angle, turn = geometry.radius() * length * surface.curvature(i, 0);
-    sizes.place.push_back(here);
-    sizes.size.push_back(1 / (length / longest + std::abs(turn) / most_turned + angle / widest));
+    if (here < -same_line || here > 1 + same_line || (!line.empty() && here <= line.back().place)) continue;
+    line.push_back({here, angle, surface.stretch(i, 0), geometry.radius() * surface.curvature(i, 0)});
   }
-  // Neighbours differ by little, from either side.
-  const std::size_t n = sizes.size.size();
-  const auto limit = [&](std::size_t i, std::size_t j) {
-    sizes.size[i] = std::min(sizes.size[i], sizes.size[j] + growth * std::abs(sizes.place[i] - sizes.place[j]));
-  };
-  for (std::size_t i = 1; i < n; ++i) limit(i, i - 1);
-  for (std::size_t i = n - 1; i-- > 0;) limit(i, i + 1);
-  return sizes;
+  return RequestedElements({line});
 }
-
-/// How many elements are requested from the front end of the top to places on it.
-class RequestedElements {
- public:
-  RequestedElements(const Discretisation& space, const VectorXd& unknowns) {
-    const auto [place, size] = wanted_sizes(space, unknowns);
-    place_ = place;
-    for (std::size_t i = 1; i < place.size(); ++i)
-      number_.push_back(number_.back() + (place[i] - place[i - 1]) * (1 / size[i] + 1 / size[i - 1]) / 2);
-  }
-
-  double all() const { return number_.back(); }
-  double up_to(double place) const { return at(place_, number_, place); }
-  double place_of(double number) const { return at(number_, place_, number); }
-
- private:
-  static double at(const std::vector<double>& x, const std::vector<double>& y, double value) {
-    const auto above = std::size_t(std::ranges::lower_bound(x, value) - x.begin());
-    const std::size_t i = std::clamp<std::size_t>(above, 1, x.size() - 1);
-    return std::lerp(y[i - 1], y[i], (value - x[i - 1]) / (x[i] - x[i - 1]));
-  }
-
-  std::vector<double> place_, number_{0};
-};
 
 }  // namespace
 
 SurfaceBreaks fitted_breaks(const Discretisation& space, const VectorXd& unknowns, double evenly) {
-  const RequestedElements requested(space, unknowns);
   SurfaceBreaks breaks = space.mesh().breaks();
-  const std::size_t n = breaks.top.size() - 1;
-  for (std::size_t k = 1; k < n; ++k)
-    breaks.top[k] = std::lerp(breaks.top[k], requested.place_of(requested.all() * double(k) / double(n)), evenly);
+  breaks.top = requested_on_top(space, unknowns).moved(std::move(breaks.top), evenly);
   return breaks;
 }
 
 double surface_evenness(const Discretisation& space, const VectorXd& unknowns) {
-  const RequestedElements requested(space, unknowns);
-  const std::vector<double>& top = space.mesh().breaks().top;
-  double most = 0;
-  for (std::size_t k = 1; k < top.size(); ++k)
-    most = std::max(most, requested.up_to(top[k]) - requested.up_to(top[k - 1]));
-  return requested.all() / double(top.size() - 1) / most;
+  return requested_on_top(space, unknowns).evenness(space.mesh().breaks().top);
 }
 
 double liquid_mesh_quality(const Discretisation& space, const VectorXd& unknowns) {

@@ -14,10 +14,14 @@ MatrixXd rotate(const MatrixXd& table, const MatrixXd& array) {
 
 }  // namespace
 
-MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& functions) {
-  MatrixXd array = rotate(table, rotate(table, rotate(table, functions)));  // (column, out out out)
-  array.resize(functions.cols(), table.rows() * table.rows() * table.rows());
+MatrixXd apply_in_directions(const std::array<MatrixXd, 3>& tables, const MatrixXd& functions) {
+  MatrixXd array = rotate(tables[2], rotate(tables[1], rotate(tables[0], functions)));  // (column, out out out)
+  array.resize(functions.cols(), tables[0].rows() * tables[1].rows() * tables[2].rows());
   return array.transpose();
+}
+
+MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& functions) {
+  return apply_in_directions({table, table, table}, functions);
 }
 
 TensorElement::TensorElement(const ReferenceElement<3>& reference)

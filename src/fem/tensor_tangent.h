@@ -9,6 +9,8 @@ namespace rheocyte {
 
 /// Applies a table (out x in) in each of the three directions to functions, one per column.
 MatrixXd apply_in_each_direction(const MatrixXd& table, const MatrixXd& functions);
+/// The same with a table for each direction.
+MatrixXd apply_in_directions(const std::array<MatrixXd, 3>& tables, const MatrixXd& functions);
 
 /// The values at other nodes of functions on an element, one per column; `table` is that of one direction.
 template <int dim>

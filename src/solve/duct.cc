@@ -7,6 +7,7 @@
 
 #include "case/scales.h"
 #include "duct/duct_integrals.h"
+#include "duct/duct_transfer.h"
 #include "duct/fit_duct.h"
 #include "fem/carry_liquid.h"
 
@@ -71,16 +72,18 @@ DuctSubdivision subdivision_of(const Problem& problem) {
   return {.along = 2, .axial = axial_in_funnel, .across = 4};
 }
 
-DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
-    : Discrete({{}, degree}),
+DuctDiscrete::DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, const Resolution& resolution,
+                           Symmetry symmetry, const std::vector<double>& side_breaks)
+    : Discrete(resolution),
       problem_(problem),
       subdivision_(subdivision),
       symmetry_(symmetry),
-      space_(make_space(problem)),
+      space_(make_space(problem, side_breaks)),
       system_(make_system(problem)) {}
 
-std::shared_ptr<DuctSpace> DuctDiscrete::make_space(const Problem& problem) const {
-  return std::make_shared<DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision_, symmetry_),
+std::shared_ptr<DuctSpace> DuctDiscrete::make_space(const Problem& problem,
+                                                    const std::vector<double>& side_breaks) const {
+  return std::make_shared<DuctSpace>(DuctMesh(DuctGeometry(shape_of(problem)), subdivision_, symmetry_, side_breaks),
                                      resolution().degree, problem.liquid, problem.drive, interior_of(problem));
 }
 
@@ -92,19 +95,54 @@ std::unique_ptr<DuctSystem> DuctDiscrete::make_system(const Problem& problem) co
 }
 
 void DuctDiscrete::move_to(const Problem& problem) {
-  const auto former_space = std::exchange(space_, make_space(problem));
+  const auto former_space = std::exchange(space_, make_space(problem, space().mesh().side_breaks()));
   problem_ = problem;
   if (is_fitted()) space().set_points(transferred_points(*former_space, space()));
   const auto former = std::exchange(system_, make_system(problem));
   system_->exchange_factors(*former);
 }
 
+namespace {
+
+/// Of a centred cell with a bent surface, which is dented with a sharp rim: the side's elements are moved to where the
+/// rim is, and the bulk below it is resolved.
+constexpr Subdivision at_rims{.top = 6, .ring = 2}, finer_at_rims{.top = 8, .ring = 2};
+
+bool sees_rims(const Resolution& resolution) {
+  return resolution.subdivision == at_rims || resolution.subdivision == finer_at_rims;
+}
+
+DuctSubdivision subdivision_at(const Problem& problem, const Resolution& resolution) {
+  DuctSubdivision n = subdivision_of(problem);
+  if (!sees_rims(resolution)) return n;
+  n.along = std::max(n.along, resolution.subdivision.top);
+  if (interior_of(problem) == Interior::elastic) n.ring = resolution.subdivision.ring;
+  return n;
+}
+
+}  // namespace
+
 double DuctDiscrete::mesh_quality(const VectorXd& unknowns) const { return liquid_mesh_quality(space(), unknowns); }
 
-std::shared_ptr<Discrete> DuctDiscrete::made_as(const Discrete& other) const {
-  const auto made = std::make_shared<DuctDiscrete>(problem_, subdivision_, resolution().degree, symmetry_);
-  made->space().set_points(transferred_points(static_cast<const DuctDiscrete&>(other).space(), made->space()));
+double DuctDiscrete::surface_evenness(const VectorXd& unknowns) const {
+  return sees_rims(resolution()) ? rheocyte::surface_evenness(space(), unknowns) : 1;
+}
+
+std::shared_ptr<DuctDiscrete> DuctDiscrete::with(const std::vector<double>& side_breaks,
+                                                 const DuctSpace& points_as) const {
+  const auto made = std::make_shared<DuctDiscrete>(problem_, subdivision_, resolution(), symmetry_,
+                                                   like(side_breaks, subdivision_.along));
+  made->space().set_points(transferred_points(points_as, made->space()));
   return made;
+}
+
+std::shared_ptr<Discrete> DuctDiscrete::made_as(const Discrete& other) const {
+  const DuctSpace& like_it = static_cast<const DuctDiscrete&>(other).space();
+  return with(like_it.mesh().side_breaks(), like_it);
+}
+
+std::shared_ptr<Discrete> DuctDiscrete::cut_again(const VectorXd& unknowns, double evenly) const {
+  return sees_rims(resolution()) ? with(fitted_breaks(space(), unknowns, evenly), space()) : nullptr;
 }
 
 void DuctDiscrete::fit(const VectorXd& unknowns) { space().set_points(fitted_points(space(), unknowns)); }
@@ -125,16 +163,32 @@ namespace {
 constexpr int last_degree = 7, last_degree_off_axis = 6;
 
 std::shared_ptr<Discrete> duct_discrete(const Problem& problem, const Resolution& resolution) {
-  return std::make_shared<DuctDiscrete>(problem, subdivision_of(problem), resolution.degree);
+  const DuctSubdivision n = subdivision_at(problem, resolution);
+  return std::make_shared<DuctDiscrete>(problem, n, resolution, symmetry_of(problem), side_breaks(n));
 }
 
 /// As in the tube (solve/tube.cc): layers and elements at the ends depend on the radius.
-bool have_same_mesh(const Problem& a, const Problem& b, const Resolution&) {
-  const auto elements = [](const Problem& problem) {
-    return DuctMesh(DuctGeometry(shape_of(problem)), subdivision_of(problem), symmetry_of(problem)).elements();
+bool have_same_mesh(const Problem& a, const Problem& b, const Resolution& resolution) {
+  const auto elements = [&](const Problem& problem) {
+    return DuctMesh(DuctGeometry(shape_of(problem)), subdivision_at(problem, resolution), symmetry_of(problem))
+        .elements();
   };
-  return subdivision_of(a) == subdivision_of(b) &&
+  return subdivision_at(a, resolution) == subdivision_at(b, resolution) &&
          std::ranges::equal(elements(a), elements(b), {}, &DuctElement::part, &DuctElement::part);
+}
+
+/// The way leaves the coarse mesh where the cell is so dented that this is worn again after it was fitted.
+void follow_rims(Geometry& duct) {
+  constexpr int degree = 3, last = 5;
+  constexpr double never_hopeless = 100;
+  std::erase_if(duct.ways, [](const CoarseWay& way) { return way.resolution.degree > degree; });
+  for (CoarseWay& way : duct.ways) way.fits = Fits::once;
+  for (const Subdivision& subdivision : {at_rims, finer_at_rims}) duct.ways.push_back({{subdivision, degree}});
+  duct.rungs.front().is_rough_at_rims = true;
+  duct.rungs.push_back({.subdivision = at_rims, .first_degree = degree, .last_degree = degree, .goes_on = true});
+  duct.rungs.push_back({.subdivision = finer_at_rims, .first_degree = degree, .last_degree = last, .goes_on = true});
+  duct.min_step_before_refining = duct.min_step_at_last;
+  duct.gain_of_finer = never_hopeless;
 }
 
 }  // namespace
@@ -185,6 +239,7 @@ Geometry duct_geometry(const Problem& problem) {
   } else {
     duct.errors.fraction_of_outline = 0.2;
   }
+  if (problem.cortex.bending > 0 && is_centred) follow_rims(duct);
   return duct;
 }
 

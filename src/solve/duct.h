@@ -19,7 +19,10 @@ class DuctDiscrete final : public Discrete {
  public:
   DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree)
       : DuctDiscrete(problem, subdivision, degree, symmetry_of(problem)) {}
-  DuctDiscrete(const Problem&, const DuctSubdivision&, int degree, Symmetry);
+  DuctDiscrete(const Problem& problem, const DuctSubdivision& subdivision, int degree, Symmetry symmetry)
+      : DuctDiscrete(problem, subdivision, {{}, degree}, symmetry, side_breaks(subdivision)) {}
+  DuctDiscrete(const Problem&, const DuctSubdivision&, const Resolution&, Symmetry,
+               const std::vector<double>& side_breaks);
 
   DuctSpace& space() { return *space_; }
   const DuctSpace& space() const { return *space_; }
@@ -38,10 +41,14 @@ class DuctDiscrete final : public Discrete {
   void move_to(const Problem&) override;
 
  private:
+  /// At the same resolution, with the side cut so, and nodes of the liquid as those of another one.
+  std::shared_ptr<DuctDiscrete> with(const std::vector<double>& side_breaks, const DuctSpace& points_as) const;
   double mesh_quality(const VectorXd& unknowns) const override;
+  double surface_evenness(const VectorXd& unknowns) const override;
   std::shared_ptr<Discrete> made_as(const Discrete& other) const override;
+  std::shared_ptr<Discrete> cut_again(const VectorXd& unknowns, double evenly) const override;
   void fit(const VectorXd& unknowns) override;
-  std::shared_ptr<DuctSpace> make_space(const Problem&) const;
+  std::shared_ptr<DuctSpace> make_space(const Problem&, const std::vector<double>& side_breaks) const;
   std::unique_ptr<DuctSystem> make_system(const Problem&) const;
 
   Problem problem_;  ///< that it was made for

@@ -169,6 +169,7 @@ void DuctDiscrete::describe(const Problem& problem, const VectorXd& unknowns, St
   r.surface = profile(space, unknowns, problem.cortex, seen_from, volume.barycentre);
   r.contour = contour(problem, unknowns);
   shift(-volume.barycentre, r.contour);
+  r.contour_places = space.mesh().surface_places();
   if (space.turns()) {
     r.offset_outline = duct_offset_outline(space, unknowns);
     r.offset_outline.rowwise() += Eigen::RowVector2d(-volume.barycentre, space.aside());

@@ -11,11 +11,15 @@
 
 namespace rheocyte {
 
+/// How often a mesh is fitted on a way: a coarse one that is worn again does not see the cell's rim.
+enum class Fits { once, ever_again };
+
 /// A resolution of the way along the branch.
 struct CoarseWay {
   Resolution resolution;
   /// Of a scout only the last state counts, as a guess for the next way, and only where it went all the way.
   bool is_scout = false;
+  Fits fits = Fits::ever_again;
 };
 
 /// Degrees on one mesh on which a state is refined.

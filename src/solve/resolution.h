@@ -4,7 +4,7 @@
 
 namespace rheocyte {
 
-/// Of the meridian; of a duct the degree alone, its mesh follows from the problem.
+/// Of the meridian; the mesh of a duct follows from the problem, and from whether it is to see sharp rims.
 struct Resolution {
   Subdivision subdivision;
   int degree = 4;

@@ -118,7 +118,7 @@ ResolvedState ResolvedBranch::start(const Resolution& resolution, const Continua
 }
 
 void ResolvedBranch::advance(ResolvedState& state, double compliance, const ContinuationOptions& options,
-                             const Accept& accept) {
+                             const Accept& accept, Fits fits) {
   const auto go = [&](bool pauses) {
     Discrete& discrete = *state.discrete;
     const Metered metered(*this, discrete.system());
@@ -129,7 +129,14 @@ void ResolvedBranch::advance(ResolvedState& state, double compliance, const Cont
     take(continue_branch(path, here, state.branch), state);
     return WayPoint{state.status, state.branch.parameter};
   };
-  fit_on_the_way(compliance, go, [&] { return fit(state, options.newton); });
+  const auto fit_here = [&] { return fit(state, options.newton); };
+  if (fits == Fits::ever_again) return fit_on_the_way(compliance, go, fit_here);
+  const auto is_worn = [&](const WayPoint& here) {
+    return here.status == Status::converged && here.parameter < compliance;
+  };
+  WayPoint here = go(true);
+  if (is_worn(here) && !state.discrete->is_fitted() && fit_here()) here = go(true);
+  if (is_worn(here)) state.status = Status::mesh_folded;
 }
 
 bool ResolvedBranch::fit(ResolvedState& state, NewtonOptions options) {
@@ -184,6 +191,8 @@ ResolvedState ResolvedBranch::enter(ResolvedState& from, const Resolution& resol
                                     const ContinuationOptions& options, const NewtonOptions& across) {
   if (!from.discrete) return start(resolution, options, smooth());
   for (const double fraction : steps_back) {
+    // Where a mesh is worn its states are far from those of the next one.
+    if (from.status == Status::mesh_folded && fraction > std::ranges::min(steps_back)) continue;
     const double farthest = fraction * from.branch.parameter;
     const auto before = std::find_if(trail_.rbegin(), trail_.rend(), [&](const ResolvedState& passed) {
       return passed.discrete->resolution() == from.discrete->resolution() && passed.branch.parameter <= farthest;
@@ -217,11 +226,13 @@ ResolvedState ResolvedBranch::follow(Search search) {
   const std::size_t count = search == Search::quick ? coarse_ways : geometry_.ways.size();
   for (std::size_t i = 0; i < count; ++i) {
     const CoarseWay& way = geometry_.ways[i];
+    if (way.fits == Fits::once && state.status == Status::mesh_folded) continue;
     const bool last = i + 1 == geometry_.ways.size(), is_guided = i > 0 && geometry_.ways[i - 1].is_scout;
     const ContinuationOptions way_options =
         options(last ? geometry_.min_step_at_last : geometry_.min_step_before_refining);
     ResolvedState next = enter(state, way.resolution, way_options, geometry_.across);
-    if (next.status == Status::converged && next.branch.parameter < 1) advance(next, 1, way_options, smooth());
+    if (next.status == Status::converged && next.branch.parameter < 1)
+      advance(next, 1, way_options, smooth(), way.fits);
     const double before = is_guided ? 0 : state.branch.parameter;
     const bool is_found = next.status == Status::converged || next.branch.tangent.size() > 0;
     if (is_found && next.branch.parameter >= before) {

@@ -39,8 +39,8 @@ class ResolvedBranch {
   ResolvedState follow(Search = Search::hopeful);
   /// The first state of the branch at a resolution.
   ResolvedState start(const Resolution&, const ContinuationOptions&, const Accept&);
-  /// As far as the branch goes, or to a compliance.
-  void advance(ResolvedState&, double compliance, const ContinuationOptions&, const Accept&);
+  /// As far as the branch goes, or to a compliance. With one fit it ends as `mesh_folded` where the mesh is worn again.
+  void advance(ResolvedState&, double compliance, const ContinuationOptions&, const Accept&, Fits = Fits::ever_again);
   /// Steps along the branch: which are accepted, the least of them.
   ContinuationOptions options(double min_step) const;
   /// A state that is not wrinkled.

@@ -75,6 +75,8 @@ struct DuctView {
 struct StationaryState : StateNumbers {
   Outcome outcome;
   Contour contour;  ///< barycentre at x = 0; in a duct the silhouette that the camera sees
+  /// In a duct, between its pieces: places on the undeformed cell (DuctMesh::surface_places).
+  std::vector<double> contour_places;
   SurfaceProfile surface;
   Eigen::MatrixX2d offset_outline;    ///< of a cell off the axis, in the plane of its offset; else empty
   std::vector<DuctView> views;        ///< along the height, and along diagonal (square channel) or width

@@ -28,15 +28,6 @@ Eigen::MatrixX2d resampled(const Contour& contour, const std::vector<double>& en
   return points;
 }
 
-/// Two quadrilaterals of the duct's mesh lie along the edge of a triangle.
-std::vector<double> ends_in_duct(const Problem& problem) {
-  std::vector<double> ends{0, 0.5};
-  const std::vector<double> heights = side_breaks(subdivision_of(problem));
-  std::transform(heights.rbegin(), heights.rend(), std::back_inserter(ends), [](double height) { return 2 - height; });
-  ends.insert(ends.end(), {3.5, 4});
-  return ends;
-}
-
 Eigen::VectorXd physical(const StateNumbers& numbers, const Scales& scales) {
   Eigen::VectorXd value(measure_count);
   for (int m = 0; m < measure_count; ++m) value(m) = table_measures[std::size_t(m)].physical(numbers, scales);
@@ -54,10 +45,10 @@ MeasuredState measure_state(const Discretisation& space, const Problem& problem,
   return {physical(numbers, scales), scales.length_um() * resampled(curve, space.mesh().surface_places())};
 }
 
-MeasuredState measure_state(const StationaryState& state, const Problem& problem, const Scales& scales) {
+MeasuredState measure_state(const StationaryState& state, const Scales& scales) {
   StateNumbers numbers = state;
   numbers.shape.volume = state.volume_of_revolution;
-  return {physical(numbers, scales), scales.length_um() * resampled(state.contour, ends_in_duct(problem))};
+  return {physical(numbers, scales), scales.length_um() * resampled(state.contour, state.contour_places)};
 }
 
 }  // namespace rheocyte

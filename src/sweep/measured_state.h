@@ -16,6 +16,6 @@ MeasuredState measure_state(const Discretisation&, const Problem&, const Scales&
 
 /// Of a state in a square channel, whose silhouette has its pieces in front, on the side, and in the rear. The volume
 /// is that of the body of revolution of the silhouette, as programs compute it from images.
-MeasuredState measure_state(const StationaryState&, const Problem&, const Scales&);
+MeasuredState measure_state(const StationaryState&, const Scales&);
 
 }  // namespace rheocyte

@@ -61,7 +61,7 @@ SampledBranch sample_at_heights(const TableSpec& spec, const SweepPoint& place, 
   branch.end = end_of(covers ? Status::covered : end);
   branch.value.resize(std::ssize(found.states), measure_count);
   for (const StationaryState& state : found.states) {
-    MeasuredState measured = measure_state(state, problem, scales);
+    MeasuredState measured = measure_state(state, scales);
     branch.value.row(branch.samples()) = measured.value.transpose();
     branch.stiffness.push_back(stiffness / state.outcome.reached);
     branch.contour.push_back(std::move(measured.contour));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "duct/duct_transfer.h"
 #include "duct/observe_duct.h"
 #include "taylor.h"
 

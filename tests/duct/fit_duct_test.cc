@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "duct/duct_system.h"
+#include "duct/duct_transfer.h"
 #include "duct/observe_duct.h"
+#include "shape/measures.h"
 
 namespace rheocyte::fit_duct_test {
 namespace {
@@ -69,6 +73,34 @@ TEST(FitDuct, PointsAreTransferredToHigherDegrees) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((transferred[i] - points[i]).norm(), 1e-12);
   higher.set_points(transferred_points(space, higher));
   EXPECT_NEAR(liquid_mesh_quality(higher, transfer(space, state, higher)), liquid_mesh_quality(space, state), 0.05);
+}
+
+TEST(FitDuct, FieldsAreTransferredToOtherElements) {
+  // To a mesh with another number of elements, cut elsewhere along the side, in the ring and in the liquid: what
+  // differs are polynomials of the same degree.
+  const DuctSpace space = space_at(5, Symmetry::eighth);
+  const DuctSubdivision other{.along = 3, .layers = 3, .ring = 2, .axial = 1};
+  const DuctSpace elsewhere(DuctMesh(space.mesh().geometry(), other, Symmetry::eighth, {-1, -0.7, 0.2, 1}), 5,
+                            Liquid{});
+  const VectorXd state = deformed(space, 0.2), there = transfer(space, state, elsewhere);
+  const double deformation = measure(duct_contour(space, state, Camera::side)).deformation;
+  EXPECT_NEAR(measure(duct_contour(elsewhere, there, Camera::side)).deformation, deformation, 2e-3 * deformation);
+  EXPECT_EQ(there(elsewhere.cell_velocity()), state(space.cell_velocity()));
+  DuctSystem system(space), system_elsewhere(elsewhere);
+  const double at_rest = system_elsewhere.residual({}, system_elsewhere.sphere()).value.norm();
+  EXPECT_LT(system_elsewhere.residual({}, there).value.norm(), 0.2 * at_rest);
+}
+
+TEST(FitDuct, ElementsAlongTheSideBecomeEven) {
+  const DuctSpace space = space_at(3, Symmetry::eighth);
+  const VectorXd state = deformed(space, 0.6);
+  const std::vector<double> as_they_are = fitted_breaks(space, state, 0), even = fitted_breaks(space, state, 1);
+  for (std::size_t i = 0; i < even.size(); ++i) EXPECT_NEAR(as_they_are[i], space.mesh().side_breaks()[i], 1e-12);
+  EXPECT_TRUE(std::ranges::is_sorted(even));
+  const DuctSpace cut(DuctMesh(space.mesh().geometry(), space.mesh().subdivision(), Symmetry::eighth, even), 3,
+                      Liquid{});
+  EXPECT_GT(surface_evenness(cut, transfer(space, state, cut)), surface_evenness(space, state));
+  EXPECT_GT(surface_evenness(cut, transfer(space, state, cut)), 0.9);
 }
 
 }  // namespace

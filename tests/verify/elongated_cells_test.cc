@@ -50,7 +50,7 @@ Solved solved(double modulus_kPa, const std::string& elongated_by) {
 /// Of its silhouette (um).
 Eigen::MatrixX2d outline_of(double modulus_kPa, const std::string& elongated_by) {
   const Solved cell = solved(modulus_kPa, elongated_by);
-  return mirrored(measure_state(cell.state, cell.problem, cell.scales).contour);
+  return mirrored(measure_state(cell.state, cell.scales).contour);
 }
 
 /// Median over random places on the camera.
@@ -127,7 +127,7 @@ TEST(ElongatedCells, WithACortexHaveTheShapeOfHL60CellsUnderOneTension) {
       "HL60");
   const StationaryState cell = Session().solve(problem_of(c));
   ASSERT_EQ(cell.outcome.status, Status::converged);
-  const MeasuredState seen = measure_state(cell, problem_of(c), scales_of(c));
+  const MeasuredState seen = measure_state(cell, scales_of(c));
   double chi_squared = std::pow(std::log(seen.value(int(Measure::area_um2)) / area_um2) / fraction_of_area, 2);
   for (std::size_t i = 0; i < measured.size(); ++i)
     chi_squared +=

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "duct/duct_transfer.h"
 #include "fem/observe.h"
 #include "solve/branch_samples.h"
 #include "solve/continuation.h"
