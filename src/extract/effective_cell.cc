@@ -68,22 +68,8 @@ EffectivePlace place_of(const CombinedInterpolation& table, const ProportionedEs
   return before(x_progress) || before(x_axial) ? EffectivePlace::stiffer : EffectivePlace::softer;
 }
 
-}  // namespace
-
-EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
-                             const Sight& sight, double pixel_size_um) {
-  EffectiveCell cell;
-  cell.events = events.area_um2.size();
-  if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
-  const SeenFigure seen = medians_of(events);
-  if (!seen.value.allFinite() || !seen.covariance.allFinite()) return cell;
-  const ProportionedCells& cells = *laws.front();
-  const ProportionedEstimate found = cells.estimate(seen, sight, pixel_size_um);
+void add_moduli(const ProportionedEstimate& found, EffectiveCell& cell) {
   const ModuliEstimate &by_scatter = found.by_scatter, &in_common = found.in_common;
-  cell.place = place_of(cells.table(), found);
-  cell.softest_kPa = found.softest_kPa;
-  cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
-  if (!cell.is_found()) return cell;
   const auto modulus = [&](Modulus m) { return Median{by_scatter.value(m), by_scatter.error(m), in_common.error(m)}; };
   cell.effective_kPa = {by_scatter.effective_modulus_kPa, by_scatter.effective_modulus_error_kPa,
                         in_common.effective_modulus_error_kPa};
@@ -94,16 +80,37 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   cell.axial_tension_Pa = {by_scatter.axial_tension_Pa, by_scatter.axial_tension_error_Pa,
                            in_common.axial_tension_error_Pa};
   cell.radius_um = by_scatter.value(Modulus::cortex) / (by_scatter.stiffness_kPa - by_scatter.value(Modulus::young));
-  const double of_events =
-                   std::pow(by_scatter.effective_modulus_error_kPa, 2) * double(cell.events) / variance_of_median,
-               of_pixels = pixel_size_um > 0 ? std::pow(found.of_picture.effective_modulus_error_kPa, 2) : 0;
-  cell.spread = std::sqrt(std::max(of_events - of_pixels, 0.0)) / cell.effective_kPa.value;
-  if (laws.size() > 1) {
-    const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um).by_scatter;
-    // Where its table ends first, it is continued.
-    if (other.status != ModuliStatus::no_data)
-      cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
-  }
+}
+
+/// Of ln of the effective modulus.
+double spread_between(const ProportionedEstimate& found, std::size_t events) {
+  const auto variance = [](const ModuliEstimate& e) {
+    return std::isfinite(e.effective_modulus_error_kPa) ? std::pow(e.effective_modulus_error_kPa, 2) : 0;
+  };
+  const double of_events = variance(found.by_scatter) * double(events) / variance_of_median;
+  return std::sqrt(std::max(of_events - variance(found.of_picture), 0.0)) / found.by_scatter.effective_modulus_kPa;
+}
+
+}  // namespace
+
+EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
+                             const Sight& sight, double pixel_size_um) {
+  EffectiveCell cell;
+  cell.events = events.area_um2.size();
+  if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
+  const SeenFigure seen = medians_of(events);
+  if (!seen.value.allFinite() || !seen.covariance.allFinite()) return cell;
+  const ProportionedEstimate found = laws.front()->estimate(seen, sight, pixel_size_um);
+  cell.place = place_of(laws.front()->table(), found);
+  cell.softest_kPa = found.softest_kPa;
+  cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
+  if (!cell.is_found()) return cell;
+  add_moduli(found, cell);
+  cell.spread = spread_between(found, cell.events);
+  if (laws.size() < 2) return cell;
+  // Where its table ends first, it is continued; without such a cell NaN.
+  const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um).by_scatter;
+  cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
   return cell;
 }
 

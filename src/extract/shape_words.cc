@@ -55,7 +55,7 @@ std::string text_on_strangers(const ShapeVerdict& v, const std::string& cells, c
   const std::string_view meaning =
       is_rounder ? ", as cells of another law or with a cortex may be; Young's moduli from deformation are not theirs, "
                    "see docs/real-cells.md."
-      : v.has_effective_modulus() ? "."
+      : v.effective.is_found() ? "; Young's moduli from deformation are not theirs, see docs/real-cells.md."
       : v.modulus_ratio >= 1
           ? "; yet Young's moduli from deformation are not below those of elongated cells: are pixel "
             "size and channel right?"

@@ -29,6 +29,9 @@ Columns<E> effective_columns() {
       "deformation and inertia ratio",
       &E::effective_kPa);
   add("cell_stiffness_kPa", "kPa", "E + E2D/r0", "of that cell, with the proportions of HL60 cells", &E::stiffness_kPa);
+  add("cell_young_modulus_kPa", "kPa", "E of the bulk", "of that cell", &E::young_kPa);
+  add("cell_cortex_modulus_mN_per_m", "mN/m", "E2D of the cortex", "of that cell", &E::cortex_mN_per_m);
+  add("cell_cortex_tension_mN_per_m", "mN/m", "Tension of the cortex", "of that cell", &E::tension_mN_per_m);
   add("cell_axial_tension_Pa", "Pa", "Axial tension of the liquid", "that elongates that cell", &E::axial_tension_Pa);
   list.add({"cell_axial_tension_over_wall_stress", "", "Axial tension over the wall shear stress", "of that cell"},
            [](const E& e) { return e.axial_tension_Pa.value / e.wall_stress_Pa; })
