@@ -279,7 +279,7 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
     await synthesise(file, [...cells, 'recording.cells=400', `recording.seed=${k + 1}`, 'cell.cortex.tension_ratio=0.3', `cell.cortex.modulus_mN_per_m=${10 - 3 * k}`]);
   await inPage(async (page) => {
     await openPopulations(page);
-    await page.getByLabel('Cells have a cortex').check();
+    await page.getByRole('combobox', { name: 'Cells' }).selectOption('Bulk and cortex');
     await page.getByRole('button', { name: 'Fit populations' }).click();
     await page.getByRole('img', { name: 'Median E + E2D/r0 of each recording, by condition' }).waitFor();
     await page.getByLabel('Shown').selectOption('E2D');
@@ -287,6 +287,10 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
     assert.equal(await page.locator('.populations-plot .session').count(), 2);
     assert.match(await page.locator('.populations table').textContent(), /mN\/m.*drug \/ control0\.[67]/);
     assert.match(await page.locator('.populations code').textContent(), /--model cortex/);
+    await page.getByRole('combobox', { name: 'Cells' }).selectOption('Effective modulus');
+    await page.getByRole('button', { name: 'Fit populations' }).click();
+    await page.getByRole('img', { name: 'Median E_eff of each recording, by condition' }).waitFor();
+    assert.match(await page.locator('.populations code').textContent(), /--model effective/);
   }, undefined, files);
   await rm(folder, { recursive: true });
 });

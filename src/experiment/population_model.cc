@@ -70,8 +70,8 @@ void refuse_most_beyond(PopulationQuantity quantity, const std::optional<double>
     bound = fmt::format("the median of {} is below {:.3g} {}", words.symbol, std::exp(*log_bound), words.unit);
   }
   r.failure = fmt::format(
-      "{} than the cells of the table {}, or too near its end: {}. Another channel, flow rate or medium brings them "
-      "into it; `rheocyte plan` says which.",
+      "{} than the cells of the table {}, or too near its end: {}. --model effective reaches softer and longer cells; "
+      "another channel, flow rate or medium brings them into the table, `rheocyte plan` says which.",
       majority, r.table, bound);
 }
 

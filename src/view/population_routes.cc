@@ -44,7 +44,8 @@ Json population_settings(const Json& given) {
     const std::string name(setting.name);
     if (name != "table" && name != "jobs" && given.contains(name)) settings[name] = given[name];
   }
-  if (settings.value("model", Json()) != "cortex") settings.erase("section");  // of the moduli beside it
+  const Json model = settings.value("model", Json());
+  if (model != "cortex" && model != "effective") settings.erase("section");  // of the moduli beside it
   refuse_polygon_files(settings);
   return settings;
 }

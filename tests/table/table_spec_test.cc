@@ -254,7 +254,7 @@ TEST(TableSpec, EveryReadySpecIsAGoodOne) {
     const auto spec = read_table_spec(entry.path());
     EXPECT_EQ(to_toml(parse_table_spec(to_toml(spec), "again")), to_toml(spec)) << name;
   }
-  EXPECT_EQ(specs, 14);
+  EXPECT_EQ(specs, 15);
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ export const population = store<PopulationAnswer | null>(null);
 export const populationRuns = store(false);
 /** Whether the recordings of one replicate belong together. */
 export const paired = store(false);
-/** Whether bulk, cortex and tensions are told of cells, in place of the modulus of solids. */
-export const withCortex = store(false);
+/** What the cells are: the option --model of `rheocyte population`. */
+export type CellModel = 'solid' | 'effective' | 'cortex';
+export const cellModel = store<CellModel>('solid');
 
 let stopping: AbortController | null = null;
 
@@ -20,7 +21,7 @@ export async function computePopulation(): Promise<void> {
   stopping = new AbortController();
   populationRuns.set(true);
   try {
-    const settings = { ...settingsToSend(moduliSettings.get()), ...gateSettings(gates.get()), paired: paired.get(), ...(withCortex.get() && { model: 'cortex' }) };
+    const settings = { ...settingsToSend(moduliSettings.get()), ...gateSettings(gates.get()), paired: paired.get(), model: cellModel.get() };
     population.set(await fitPopulation({ conditions: sessionsOf(recordings(items.get())), settings }, stopping.signal));
   } catch (failure) {
     notifyFailure(failure);

@@ -6,7 +6,7 @@ import { significant } from '../../draw/numbers';
 import { Progress } from '../../shell/Progress';
 import { useStore } from '../../shell/store';
 import { items, recordings } from '../model';
-import { computePopulation, paired, population, populationRuns, stopPopulation, withCortex } from '../population_runs';
+import { cellModel, computePopulation, paired, population, populationRuns, stopPopulation, type CellModel } from '../population_runs';
 import { dotsOf, intervalOf, sessionsOf, type Interval } from '../condition_dots';
 import { RecommendedMean } from '../Conditions';
 import { recommendedOf } from '../recommended';
@@ -138,7 +138,7 @@ function Start() {
   const all = recordings(useStore(items));
   const running = useStore(populationRuns);
   const wantsPairs = useStore(paired);
-  const cortex = useStore(withCortex);
+  const model = useStore(cellModel);
   const conditions = sessionsOf(all);
   if (running) return <Progress label="Fitting populations" onStop={stopPopulation} />;
   return (
@@ -150,9 +150,13 @@ function Start() {
         <input type="checkbox" checked={wantsPairs} onChange={({ currentTarget }) => paired.set(currentTarget.checked)} />
         Replicates are pairs
       </label>
-      <label class="check" title="Bulk, cortex and tensions of cells, by the whole outline, in place of the modulus of solids">
-        <input type="checkbox" checked={cortex} onChange={({ currentTarget }) => withCortex.set(currentTarget.checked)} />
-        Cells have a cortex
+      <label title="Effective modulus: real cells, by area, deformation and inertia ratio. Bulk and cortex: by the whole outline">
+        Cells
+        <select value={model} onChange={({ currentTarget }) => cellModel.set(currentTarget.value as CellModel)}>
+          <option value="solid">Solids</option>
+          <option value="effective">Effective modulus</option>
+          <option value="cortex">Bulk and cortex</option>
+        </select>
       </label>
     </div>
   );
