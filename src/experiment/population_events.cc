@@ -136,10 +136,9 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
   if (by == StiffnessMeasure::asymmetry && !has_outlines)
     refuse_path(
         file,
-        "has neither contours nor masks, from which the asymmetry of the outlines follows; populations of solids "
-        "are fitted without them with --by odd-deformation, if there are inertia ratios (inert_ratio_cvx), else with "
-        "--by "
-        "deformation, if nothing but the flow elongates the cells.");
+        "has neither contours nor masks, from which the asymmetry of the outlines follows. With inertia ratios "
+        "(inert_ratio_cvx), real cells, which are longer than the flow makes them, are fitted with --model effective, "
+        "solids with --by odd-deformation; else with --by deformation, if nothing but the flow elongates the cells.");
   if (by == StiffnessMeasure::odd_deformation && !has_outlines &&
       !recording.has_scalar(std::string(stored_inertia_ratio)))
     refuse_path(
