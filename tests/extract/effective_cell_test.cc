@@ -73,7 +73,7 @@ EffectiveCell effective_of(const EventFigures& events) {
   return effective_cell(laws, events, {flow}, pixel_um);
 }
 
-TEST(EffectiveCell, MedianHasNoBiasAndItsErrorIsThatOfItsScatter) {
+TEST(EffectiveCellInMemory, MedianHasNoBiasAndItsErrorIsThatOfItsScatter) {
   constexpr int recordings = 20;
   const double expected = effective_of(6.3, 0.35);
   double sum = 0, squares = 0, tensions = 0, spread = 0;
@@ -93,7 +93,7 @@ TEST(EffectiveCell, MedianHasNoBiasAndItsErrorIsThatOfItsScatter) {
 }
 
 /// Three and three recordings that scatter among themselves by 5 %.
-TEST(EffectiveCell, RatiosOfConditionsAreThoseOfTheCells) {
+TEST(EffectiveCellInMemory, RatiosOfConditionsAreThoseOfTheCells) {
   constexpr int experiments = 24;
   for (const double ratio : {1.0, 0.7}) {
     int inside = 0, alarms = 0;
@@ -125,13 +125,13 @@ TEST(EffectiveCell, RatiosOfConditionsAreThoseOfTheCells) {
   }
 }
 
-TEST(EffectiveCell, FewEventsHaveNone) {
+TEST(EffectiveCellInMemory, FewEventsHaveNone) {
   EXPECT_EQ(effective_of(seen_events({0.25, 0.2, 0, 19}, 1)).place, EffectivePlace::unknown);
   EXPECT_EQ(effective_cell({}, seen_events({0.25, 0.2, 0, 25}, 1), {flow}, pixel_um).place, EffectivePlace::unknown);
 }
 
 /// Outliers as debris makes them.
-TEST(EffectiveCell, OutliersHardlyMoveIt) {
+TEST(EffectiveCellInMemory, OutliersHardlyMoveIt) {
   EventFigures events = seen_events({0.25, 0.2, 0, 400}, 7);
   const double before = effective_of(events).effective_kPa.value;
   for (int i = 0; i < 12; ++i) {
