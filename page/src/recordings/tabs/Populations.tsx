@@ -150,7 +150,7 @@ function Start() {
         <input type="checkbox" checked={wantsPairs} onChange={({ currentTarget }) => paired.set(currentTarget.checked)} />
         Replicates are pairs
       </label>
-      <label title="Effective modulus: real cells, by area, deformation and inertia ratio. Bulk and cortex: by the whole outline">
+      <label class="row" title="Effective modulus: real cells, by area, deformation and inertia ratio. Bulk and cortex: by the whole outline">
         Cells
         <select value={model} onChange={({ currentTarget }) => cellModel.set(currentTarget.value as CellModel)}>
           <option value="solid">Solids</option>
