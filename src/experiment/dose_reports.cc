@@ -7,6 +7,7 @@
 
 #include "case/user_error.h"
 #include "experiment/condition_reports.h"
+#include "numeric/number_from_chars.h"
 
 namespace rheocyte {
 namespace {
@@ -16,15 +17,11 @@ namespace {
 }
 
 /// UserError if it is no number, or negative.
-double value_of(const std::string& text, const std::string& number) {
-  std::size_t read = 0;
+double value_of(const std::string& text, std::string_view number) {
   double value = no_value;
-  try {
-    value = std::stod(number, &read);
-  } catch (const std::exception&) {
-    read = 0;
-  }
-  if (read == 0 || read != number.size() || !std::isfinite(value) || value < 0)
+  const char* const end = number.data() + number.size();
+  const auto [stop, error] = number_from_chars(number.data(), end, value);
+  if (error != std::errc{} || stop != end || !std::isfinite(value) || value < 0)
     refuse(text, "give the name of a condition and a number that is not negative, for example --dose drug=0.05.");
   return value;
 }
@@ -41,7 +38,7 @@ std::vector<double> doses_of(const std::vector<std::string>& texts,
     const std::string name = text.substr(0, sign);
     const auto found = std::ranges::find(conditions, name, &PopulationCondition::name);
     if (found == conditions.end()) refuse(text, "there is no such condition.");
-    doses[std::size_t(found - conditions.begin())] = value_of(text, text.substr(sign + 1));
+    doses[std::size_t(found - conditions.begin())] = value_of(text, std::string_view(text).substr(sign + 1));
   }
   if (std::isnan(doses.front())) doses.front() = 0;
   return doses;

@@ -11,16 +11,11 @@
 namespace rheocyte {
 namespace {
 
-/// Red cells apart.
 EventFigures figures_of(const PopulationEvents& events) {
   EventFigures figures;
-  for (std::size_t i = 0; i < events.events(); ++i) {
-    const double area = events.of(SeenMeasure::area_um2)[i], ratio = events.of(SeenMeasure::inertia_ratio)[i];
-    if (is_red_cell(ratio, area)) continue;
-    figures.area_um2.push_back(area);
-    figures.deformation.push_back(events.of(SeenMeasure::deformation)[i]);
-    figures.inertia_ratio.push_back(ratio);
-  }
+  for (std::size_t i = 0; i < events.events(); ++i)
+    figures.take(events.of(SeenMeasure::area_um2)[i], events.of(SeenMeasure::deformation)[i],
+                 events.of(SeenMeasure::inertia_ratio)[i]);
   return figures;
 }
 

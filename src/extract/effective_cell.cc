@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "events/plausibility.h"
 #include "extract/common_errors.h"
 #include "numeric/quantile.h"
 
@@ -92,6 +93,15 @@ double spread_between(const ProportionedEstimate& found, std::size_t events) {
 }
 
 }  // namespace
+
+void EventFigures::take(double event_area_um2, double event_deformation, double event_inertia_ratio) {
+  if (!std::isfinite(event_area_um2) || !std::isfinite(event_deformation) || !std::isfinite(event_inertia_ratio) ||
+      is_red_cell(event_inertia_ratio, event_area_um2))
+    return;
+  area_um2.push_back(event_area_um2);
+  deformation.push_back(event_deformation);
+  inertia_ratio.push_back(event_inertia_ratio);
+}
 
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
                              const Sight& sight, double pixel_size_um) {

@@ -15,6 +15,9 @@ namespace rheocyte {
 /// Area (um2), deformation and inertia ratio of events as measured, of all that count: what has no modulus counts, too.
 struct EventFigures {
   std::vector<double> area_um2, deformation, inertia_ratio;
+
+  /// An event, unless it is a red cell or lacks a number.
+  void take(double event_area_um2, double event_deformation, double event_inertia_ratio);
 };
 
 /// Where the median cell lies in the table; ambiguous: cells of different stiffness there have such medians.

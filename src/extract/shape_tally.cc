@@ -78,14 +78,6 @@ void ShapeTally::take_moduli(const JudgedEvents& e, std::size_t i) {
   if (side_of(e.elongated_states[i]) == Side::softer) softer_cells_.push_back(e.cells[i]);
 }
 
-void ShapeTally::take_figure(const JudgedEvents& e, std::size_t i) {
-  if (e.area_um2.empty() || e.deformation.empty() || e.inertia_ratio.empty()) return;
-  if (!std::isfinite(e.area_um2[i]) || !std::isfinite(e.deformation[i]) || !std::isfinite(e.inertia_ratio[i])) return;
-  figures_.area_um2.push_back(e.area_um2[i]);
-  figures_.deformation.push_back(e.deformation[i]);
-  figures_.inertia_ratio.push_back(e.inertia_ratio[i]);
-}
-
 SofterCells ShapeTally::softer() const {
   SofterCells softer{.area_um2 = quantile(softer_areas_, 0.5)};
   for (int k = 0; k < softer.elongated.size(); ++k) {
@@ -107,7 +99,8 @@ void ShapeTally::take(const JudgedEvents& e) {
       continue;
     }
     take_moduli(e, i);
-    take_figure(e, i);
+    if (!e.area_um2.empty() && !e.deformation.empty())
+      figures_.take(e.area_um2[i], e.deformation[i], e.inertia_ratio[i]);
     if (!std::isfinite(excess.excess)) continue;
     const ElongationBlock& drawn = e.elongation;
     if (!drawn.modulus_kPa.empty() && std::isfinite(drawn.modulus_kPa[i]))

@@ -78,7 +78,6 @@ class ShapeTally {
   std::vector<Drawn> drawn_;
   std::size_t elongated_ = 0, red_cells_ = 0;
   void take_moduli(const JudgedEvents& events, std::size_t event);
-  void take_figure(const JudgedEvents& events, std::size_t event);
   SidedModuli by_deformation_, by_elongation_;
   EventFigures figures_;
   std::vector<double> softer_areas_;
