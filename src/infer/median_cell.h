@@ -1,5 +1,5 @@
 // The cell of a combined table whose shape is the median of those of a recording (docs/theory-extract.md, sec. "One
-// tension for a recording").
+// tension and one stiffness for a recording").
 #pragma once
 #include <array>
 
