@@ -37,7 +37,8 @@ struct ExtractOptions {
   std::string table;  ///< a file, a folder of a table, or an identifier; empty: the tables that come with the program
   std::optional<Section> section;  ///< of these; not given: the square channel, if there are any
   bool no_pixelation = false, no_area_correction = false, no_tsv = false;
-  bool no_asymmetry = false;  ///< contours and masks are not read where areas and deformations are stored
+  bool no_asymmetry = false;               ///< contours and masks are not read where areas and deformations are stored
+  std::optional<double> axial_tension_Pa;  ///< of the liquid, for the effective modulus; not given: found
 };
 
 struct ModuliOptions {
@@ -73,6 +74,7 @@ struct PopulationOptions {
   std::optional<double> between_recordings;  ///< known standard deviation of ln E
   bool shared_spread = false;                ///< of solids: the cells of all recordings of a condition scatter alike
   std::optional<double> outline_noise_um;    ///< OutlineNoise::deviation; not given: 0
+  std::optional<double> axial_tension_Pa;    ///< of the liquid, for the effective modulus; not given: found
   bool no_bins = false;
   std::optional<double> jobs;  ///< threads
 };

@@ -65,6 +65,14 @@ Setting patience(std::optional<double>& seconds) {
   return patience;
 }
 
+Setting axial_tension(std::optional<double>& Pa, std::string_view otherwise) {
+  return of_key(case_key("flow.axial_tension_Pa"),
+                setting("axial_tension_Pa", "Axial tension", &Pa,
+                        "axial tension of the liquid, for the effective modulus: of the same medium, channel and flow "
+                        "rate it is one, so that recordings without inertia ratios have it from others",
+                        otherwise));
+}
+
 /// Of the channel, in two meanings.
 Setting section_setting(std::optional<Section>& section, std::string_view sentence, std::string_view otherwise) {
   return of_type("tube|square", {"tube", "square"}, setting("section", "Section", &section, sentence, otherwise));
@@ -156,7 +164,8 @@ Settings settings_of(ExtractOptions& o) {
                                                     "do not correct areas for the pixels; published tables never do")),
                    formerly("asymmetry", setting("no_asymmetry", "No asymmetry", &o.no_asymmetry,
                                                  "do not read contours and masks for the modulus from the asymmetry of "
-                                                 "the outlines; faster"))});
+                                                 "the outlines; faster")),
+                   axial_tension(o.axial_tension_Pa, "it follows from the shapes of the cells")});
 }
 
 Settings settings_of(ModuliOptions& o) {
@@ -213,6 +222,7 @@ Settings settings_of(PopulationOptions& o) {
                        "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "
                        "an identifier of the program's tables; of cells with a cortex a combined one",
                        "the program's own")),
+       axial_tension(o.axial_tension_Pa, "it follows from the shapes of the cells in each recording"),
        setting("no_bins", "No bins", &o.no_bins, "take each event by itself, also of more than 20,000"),
        std::move(jobs)},
       settings_of(o.measuring));

@@ -11,6 +11,7 @@
 #include "events/settings_hash.h"
 #include "experiment/condition_reports.h"
 #include "experiment/dose_reports.h"
+#include "experiment/model_of_shapes.h"
 #include "experiment/population_model.h"
 #include "experiment/shared_spreads.h"
 #include "experiment/tension_of_setup.h"
@@ -25,11 +26,12 @@ constexpr std::size_t areas_that_tell = 32;
 /// Takes the recordings one after the other, in the order of the conditions.
 class PopulationAnalysis {
  public:
-  PopulationAnalysis(const PopulationOptions& options, const std::vector<PopulationCondition>& conditions);
+  PopulationAnalysis(const PopulationOptions& options, const std::vector<PopulationCondition>& conditions,
+                     std::string why_this_model);
 
   void add(std::size_t condition, std::size_t session, const PopulationEvents& events, const Watch& watch);
   /// Of all that were added.
-  PopulationReport report() const;
+  PopulationReport report();
 
  private:
   /// In what recordings differ that belong together.
@@ -43,17 +45,19 @@ class PopulationAnalysis {
   std::vector<double> doses_;
   StiffnessMeasure by_;
   std::unique_ptr<PopulationModel> model_;
+  std::string why_this_model_;
   std::vector<RecordingReport> recordings_;
   std::vector<std::vector<double>> first_areas_;  ///< of each recording: by these the same measurement is known again
 };
 
 PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options,
-                                       const std::vector<PopulationCondition>& conditions)
+                                       const std::vector<PopulationCondition>& conditions, std::string why_this_model)
     : options_(options),
       conditions_(conditions),
       doses_(doses_of(options.doses, conditions)),
       by_(stiffness_measure_of(options)),
-      model_(population_model(options)) {}
+      model_(population_model(options)),
+      why_this_model_(std::move(why_this_model)) {}
 
 void PopulationAnalysis::check_new(const RecordingReport& recording, const PopulationEvents& events) {
   const auto& areas = events.of(SeenMeasure::area_um2);
@@ -127,9 +131,11 @@ std::vector<std::string> PopulationAnalysis::unlike_recordings() const {
   return warnings;
 }
 
-PopulationReport PopulationAnalysis::report() const {
+PopulationReport PopulationAnalysis::report() {
+  model_->share(recordings_);
   PopulationReport report;
   report.model = model_->name();
+  report.why_this_model = why_this_model_;
   report.elongation = model_->elongation_text();
   report.by = by_;
   report.between_recordings = options_.between_recordings;
@@ -154,14 +160,19 @@ PopulationReport PopulationAnalysis::report() const {
 
 PopulationReport analyse(const std::vector<PopulationCondition>& conditions, const PopulationOptions& options,
                          const Watch& watch) {
-  PopulationAnalysis analysis(options, conditions);
+  ChosenModel model = model_of_shapes(conditions, options, watch);
+  PopulationOptions decided = options;
+  decided.model = model.name;
+  const std::optional<StiffnessMeasure> measure =
+      model.name == "effective" ? std::nullopt : std::optional(stiffness_measure_of(decided));
+  PopulationAnalysis analysis(decided, conditions, std::move(model.why));
   double all = 0, done = 0;
   for (const auto& condition : conditions) all += double(condition.recordings.size());
   for (std::size_t c = 0; c < conditions.size(); ++c)
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
       const auto& recording = conditions[c].recordings[j];
       const auto read = [&](const TellProgress& report_progress) {
-        return read_population_events(recording, options.measuring, stiffness_measure_of(options),
+        return read_population_events(recording, options.measuring, measure,
                                       [&](double fraction) { report_progress((done + 0.5 * fraction) / all); });
       };
       analysis.add(c, j, read_isolated(recording, options.measuring, watch, read), watch);

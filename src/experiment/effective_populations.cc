@@ -7,15 +7,17 @@
 
 #include "case/user_error.h"
 #include "events/plausibility.h"
+#include "experiment/tension_of_setup.h"
 
 namespace rheocyte {
 namespace {
 
 EventFigures figures_of(const PopulationEvents& events) {
   EventFigures figures;
+  figures.has_ratios = events.has_inertia_ratios;
   for (std::size_t i = 0; i < events.events(); ++i)
     figures.take(events.of(SeenMeasure::area_um2)[i], events.of(SeenMeasure::deformation)[i],
-                 events.of(SeenMeasure::inertia_ratio)[i]);
+                 figures.has_ratios ? events.of(SeenMeasure::inertia_ratio)[i] : no_value);
   return figures;
 }
 
@@ -46,7 +48,8 @@ std::string beyond_text(const EffectiveCell& cell) {
 }  // namespace
 
 EffectivePopulations::EffectivePopulations(const PopulationOptions& options)
-    : tables_(std::string(), options.section.value_or(Section::square)) {
+    : tables_(std::string(), options.section.value_or(Section::square)),
+      given_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {
   if (!options.by.empty())
     throw UserError(
         fmt::format("rheocyte: --by {} and --model effective contradict each other: the effective modulus follows from "
@@ -72,13 +75,42 @@ std::string EffectivePopulations::systematic_errors(std::span<const RecordingRep
 }
 
 void EffectivePopulations::fit(const PopulationEvents& events, RecordingReport& r, const Watch&) {
-  const EventFigures figures = figures_of(events);
+  EventFigures figures = figures_of(events);
   r.fitted_events = figures.area_um2.size();
   check_events_of_population(r);
-  ChannelFlow flow = events.flow();
+  const bool has_tension = figures.has_ratios || std::isfinite(given_.error_Pa);
+  if (has_tension)
+    take_cell(figures, given_, r);
+  else
+    r.failure =
+        "there are neither outlines nor inertia ratios (inert_ratio_cvx): the axial tension of the liquid is unknown. "
+        "Give it with --axial-tension-Pa, or analyse two recordings of the same medium, channel and flow rate together "
+        "with this one.";
+  without_ratios_.push_back(has_tension ? EventFigures{} : std::move(figures));
+}
+
+void EffectivePopulations::share(std::span<RecordingReport> recordings) {
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    RecordingReport& r = recordings[k];
+    if (without_ratios_[k].area_um2.empty()) continue;
+    const auto tension = tension_of_setup(recordings, r);
+    if (!tension) continue;
+    const double Pa = std::exp(tension->log_over_wall_stress) * r.wall_stress_Pa();
+    r.failure.clear();
+    take_cell(without_ratios_[k], {Pa, Pa * tension->error}, r);
+    r.warnings.push_back(fmt::format(
+        "there are neither outlines nor inertia ratios: the axial tension, {:.0f} Pa, is that of the other recordings "
+        "of the same medium, channel and flow rate.",
+        Pa));
+  }
+}
+
+void EffectivePopulations::take_cell(const EventFigures& figures, const AxialTension& tension,
+                                     RecordingReport& r) const {
+  ChannelFlow flow = r.conditions.flow;
   flow.viscosity_mPas = r.median_viscosity_mPas;
   EffectiveCell& cell = r.effective.emplace(
-      effective_cell(tables_.proportioned(), figures, {flow, tables_.section()}, events.pixel_size_um));
+      effective_cell(tables_.proportioned(), figures, {flow, tables_.section()}, r.pixel_size_um, tension));
   if (!cell.is_found()) {
     r.failure = beyond_text(cell);
     r.is_beyond = cell.place == EffectivePlace::softer || cell.place == EffectivePlace::longer;
@@ -87,8 +119,9 @@ void EffectivePopulations::fit(const PopulationEvents& events, RecordingReport& 
     return;
   }
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), false, cell);
-  r.quantities = {estimate_of(PopulationQuantity::effective_modulus, cell.effective_kPa, cell.spread),
-                  estimate_of(PopulationQuantity::axial_tension, cell.axial_tension_Pa, 0)};
+  r.quantities = {estimate_of(PopulationQuantity::effective_modulus, cell.effective_kPa, cell.spread)};
+  if (std::isinf(tension.error_Pa))
+    r.quantities.push_back(estimate_of(PopulationQuantity::axial_tension, cell.axial_tension_Pa, 0));
   r.log_radius = std::log(cell.radius_um);
 }
 

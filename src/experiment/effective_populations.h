@@ -1,6 +1,7 @@
 // Recordings by the effective modulus of their median cell (docs/theory-extract.md, sec. "The effective modulus").
 #pragma once
 #include <string>
+#include <vector>
 
 #include "experiment/population_model.h"
 #include "shelf/modulus_tables.h"
@@ -19,9 +20,15 @@ class EffectivePopulations : public PopulationModel {
   }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
   void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
+  /// Recordings without inertia ratios have the tension of others of their set-up.
+  void share(std::span<RecordingReport> recordings) override;
 
  private:
+  void take_cell(const EventFigures& figures, const AxialTension& tension, RecordingReport& report) const;
+
   ModulusTables tables_;
+  AxialTension given_;
+  std::vector<EventFigures> without_ratios_;  ///< of each recording that lacks them, else empty
 };
 
 }  // namespace rheocyte

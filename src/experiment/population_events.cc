@@ -29,7 +29,7 @@ void add(const Seen& seen, std::size_t event, PopulationEvents& all) {
   for (std::size_t m = 0; m < seen.size(); ++m) all.seen[m].push_back(seen[m]);
 }
 
-void describe_gates(const Gates& gates, StiffnessMeasure by, PopulationEvents& all) {
+void describe_gates(const Gates& gates, const std::optional<StiffnessMeasure>& by, PopulationEvents& all) {
   all.gates_beside_the_model = by == StiffnessMeasure::asymmetry ? gates.description_without({"area_um"})
                                                                  : gates.description_without({"area_um", "deform"});
   const auto area = gates.limits_of("area_um"), deformation = gates.limits_of("deform");
@@ -40,14 +40,15 @@ void describe_gates(const Gates& gates, StiffnessMeasure by, PopulationEvents& a
 /// By contours or masks; by stored features where there are none.
 class PopulationReader {
  public:
-  PopulationReader(const Recording& recording, const MeasuringOptions& options, StiffnessMeasure by)
+  PopulationReader(const Recording& recording, const MeasuringOptions& options,
+                   const std::optional<StiffnessMeasure>& by)
       : events_(recording, options, {.outlines = OutlineUse::if_there}) {
     describe_gates(events_.gates(), by, all_);
     all_.has_outlines = events_.has_outlines();
     if (all_.has_outlines)
       find_direction();
     else
-      look_for_inertia_ratios();
+      look_for_inertia_ratios(by.has_value());
   }
 
   void take(std::size_t first, std::size_t count) {
@@ -74,9 +75,9 @@ class PopulationReader {
     if (direction == 0) all_.warnings.emplace_back("the direction of the cells cannot be seen and is taken as +x.");
   }
 
-  void look_for_inertia_ratios() {
+  void look_for_inertia_ratios(bool are_needed) {
     all_.has_inertia_ratios = events_.recording().has_scalar(std::string(stored_inertia_ratio));
-    if (!all_.has_inertia_ratios)
+    if (!all_.has_inertia_ratios && are_needed)
       all_.warnings.emplace_back(
           "there are neither outlines nor inertia ratios (inert_ratio_cvx): E is that of cells which nothing but the "
           "flow elongates, and whether these are such cells is unknown.");
@@ -130,7 +131,8 @@ ShapeVector PopulationEvents::median_shape() const {
 }
 
 PopulationEvents read_population_events(const std::filesystem::path& file, const MeasuringOptions& options,
-                                        StiffnessMeasure by, const TellProgress& report_progress) {
+                                        const std::optional<StiffnessMeasure>& by,
+                                        const TellProgress& report_progress) {
   Recording recording(file);
   const bool has_outlines = ShapeSource::has_outlines(recording);
   if (by == StiffnessMeasure::asymmetry && !has_outlines)

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -57,8 +58,9 @@ struct PopulationEvents : RecordingFacts {
 };
 
 /// Of those events inside the gates of which everything is a number. UserError for what is wrong with the recording:
-/// the asymmetry needs contours or masks, the odd part of the deformation these or inertia ratios.
+/// the asymmetry needs contours or masks, the odd part of the deformation these or inertia ratios. Without a measure
+/// whatever the recording has.
 PopulationEvents read_population_events(const std::filesystem::path& recording, const MeasuringOptions& options,
-                                        StiffnessMeasure by, const TellProgress& report_progress);
+                                        const std::optional<StiffnessMeasure>& by, const TellProgress& report_progress);
 
 }  // namespace rheocyte

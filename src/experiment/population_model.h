@@ -25,6 +25,8 @@ class PopulationModel {
   /// Fits the population of a recording and adds what is found, or why there are no numbers; `watch` is asked from
   /// step to step where that takes long. UserError: too few events, none inside the gates, gates that leave a tail.
   virtual void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) = 0;
+  /// Once all were fitted, in the same order: what they share.
+  virtual void share(std::span<RecordingReport> recordings) { static_cast<void>(recordings); }
 };
 
 /// `--model`: solids, or solids with a cortex. UserError if it is none, or a table is missing, or does not go with it.

@@ -111,7 +111,7 @@ void check_conditions(const std::vector<PopulationCondition>& conditions, bool p
 }
 
 StiffnessMeasure stiffness_measure_of(const PopulationOptions& options) {
-  if (options.model == "effective") return StiffnessMeasure::odd_deformation;  // needs no outlines
+  if (options.model == "effective") return StiffnessMeasure::odd_deformation;
   if (options.by.empty()) return StiffnessMeasure::asymmetry;
   for (const auto& [word, by] : measure_words)
     if (word == options.by) return by;

@@ -70,6 +70,7 @@ struct DoseReport {
 
 struct PopulationReport {
   std::string model, elongation, systematic_errors;  ///< those of PopulationModel
+  std::string why_this_model;                        ///< where the shapes of the cells decide
   StiffnessMeasure by = StiffnessMeasure::asymmetry;
   double level = 0.95;
   std::optional<double> between_recordings;

@@ -52,6 +52,21 @@ std::string sentence_on(const RecordingReports& setup) {
 
 }  // namespace
 
+std::optional<SharedTension> tension_of_setup(std::span<const RecordingReport> recordings,
+                                              const RecordingReport& recording) {
+  std::vector<double> logs;
+  for (const RecordingReport& r : recordings) {
+    const QuantityEstimate* const tension = r.estimate(PopulationQuantity::axial_tension);
+    if (tension && differences_within({&recording, &r}).empty())
+      logs.push_back(tension->mean.value - std::log(r.wall_stress_Pa()));
+  }
+  if (logs.size() < 2) return {};
+  double mean = 0, squares = 0;
+  for (const double log : logs) mean += log / double(logs.size());
+  for (const double log : logs) squares += std::pow(log - mean, 2) / double(logs.size() - 1);
+  return SharedTension{mean, std::sqrt(squares)};
+}
+
 std::vector<std::string> tensions_of_setups(const std::vector<RecordingReport>& recordings) {
   std::vector<std::string> sentences;
   for (const RecordingReports& setup : setups_of(recordings)) sentences.push_back(sentence_on(setup));

@@ -33,11 +33,12 @@ MeasuredFigure figure_of(std::span<const double> measured, double (*feature)(dou
 }
 
 SeenFigure medians_of(const EventFigures& events) {
-  const std::array columns{figure_of(events.area_um2, [](double area) { return std::log(area); }),
-                           figure_of(events.deformation, [](double d) { return d; }),
-                           figure_of(events.inertia_ratio, [](double ratio) { return 1 / (ratio * ratio); })};
+  std::vector columns{figure_of(events.area_um2, [](double area) { return std::log(area); }),
+                      figure_of(events.deformation, [](double d) { return d; })};
+  if (events.has_ratios)
+    columns.push_back(figure_of(events.inertia_ratio, [](double ratio) { return 1 / (ratio * ratio); }));
   const auto count = double(events.area_um2.size());
-  SeenFigure seen;
+  SeenFigure seen{{0, 0, no_value}, Eigen::Matrix3d::Zero()};
   for (std::size_t i = 0; i < columns.size(); ++i) {
     seen.value(Eigen::Index(i)) = columns[i].median;
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -95,8 +96,8 @@ double spread_between(const ProportionedEstimate& found, std::size_t events) {
 }  // namespace
 
 void EventFigures::take(double event_area_um2, double event_deformation, double event_inertia_ratio) {
-  if (!std::isfinite(event_area_um2) || !std::isfinite(event_deformation) || !std::isfinite(event_inertia_ratio) ||
-      is_red_cell(event_inertia_ratio, event_area_um2))
+  if (!std::isfinite(event_area_um2) || !std::isfinite(event_deformation) ||
+      (has_ratios && !std::isfinite(event_inertia_ratio)) || is_red_cell(event_inertia_ratio, event_area_um2))
     return;
   area_um2.push_back(event_area_um2);
   deformation.push_back(event_deformation);
@@ -104,22 +105,24 @@ void EventFigures::take(double event_area_um2, double event_deformation, double 
 }
 
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
-                             const Sight& sight, double pixel_size_um) {
+                             const Sight& sight, double pixel_size_um, const AxialTension& tension) {
   EffectiveCell cell;
   cell.events = events.area_um2.size();
   if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
   const SeenFigure seen = medians_of(events);
-  if (!seen.value.allFinite() || !seen.covariance.allFinite()) return cell;
-  const ProportionedEstimate found = laws.front()->estimate(seen, sight, pixel_size_um);
+  const bool is_known = seen.value.head<2>().allFinite() && seen.covariance.allFinite();
+  if (!is_known || (!events.has_ratios && std::isinf(tension.error_Pa))) return cell;
+  const ProportionedEstimate found = laws.front()->estimate(seen, sight, pixel_size_um, tension);
   cell.place = place_of(laws.front()->table(), found);
   cell.softest_kPa = found.softest_kPa;
   cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
+  cell.viscosity_mPas = sight.flow.viscosity_mPas;
   if (!cell.is_found()) return cell;
   add_moduli(found, cell);
   cell.spread = spread_between(found, cell.events);
   if (laws.size() < 2) return cell;
   // Where its table ends first, it is continued; without such a cell NaN.
-  const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um).by_scatter;
+  const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um, tension).by_scatter;
   cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
   return cell;
 }

@@ -8,6 +8,7 @@
 
 #include "extract/median.h"
 #include "infer/proportioned_cells.h"
+#include "numeric/censored_median.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
@@ -15,6 +16,7 @@ namespace rheocyte {
 /// Area (um2), deformation and inertia ratio of events as measured, of all that count: what has no modulus counts, too.
 struct EventFigures {
   std::vector<double> area_um2, deformation, inertia_ratio;
+  bool has_ratios = true;  ///< else inertia ratios are NaN
 
   /// An event, unless it is a red cell or lacks a number.
   void take(double event_area_um2, double event_deformation, double event_inertia_ratio);
@@ -32,17 +34,18 @@ struct EffectiveCell {
   Median axial_tension_Pa;                              ///< of the liquid
   double radius_um = no_value;                          ///< at rest
   double spread = no_value;  ///< of ln of the effective modulus between cells, without the noise of their pictures
-  double wall_stress_Pa = no_value;
+  double wall_stress_Pa = no_value, viscosity_mPas = no_value;
   double softest_kPa = no_value;     ///< effective modulus at the end of the table, of a softer cell
   double over_other_law = no_value;  ///< the effective modulus over that by the other law of the cortex
+  CensoredMedian events_kPa;         ///< of the effective moduli of all events under this axial tension
   bool is_found() const { return place == EffectivePlace::inside; }
 
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
     return std::tie(s.events, s.place, s.effective_kPa, s.stiffness_kPa, s.young_kPa, s.cortex_mN_per_m,
-                    s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa, s.softest_kPa,
-                    s.over_other_law);
+                    s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa, s.viscosity_mPas,
+                    s.softest_kPa, s.over_other_law, s.events_kPa);
   }
 };
 
@@ -50,9 +53,11 @@ struct EffectiveCell {
 inline constexpr std::size_t min_events_of_effective_cell = 20;
 
 /// By cells of one law of the cortex or of two, of which the first counts. Its errors in common are those of pixels,
-/// section and table. Unknown for too few events, and without a table.
+/// section and table. Unknown for too few events, without a table, and where neither inertia ratios nor the axial
+/// tension of the liquid are known.
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
-                             const Sight& sight, double pixel_size_um);
+                             const Sight& sight, double pixel_size_um,
+                             const AxialTension& tension = AxialTension::unknown());
 
 /// What the model adds to the errors in common: inertia, height, and the proportions and the law of the cortex. Of
 /// cells whose outlines show a cortex the proportions are better known.

@@ -22,6 +22,9 @@ struct EventBlock {
   ElongationBlock elongation;
   std::span<const ContourFeatures> outlines;  ///< empty unless they are measured, too
   std::span<const OutlineTilt> tilt;          ///< empty without contours and masks
+  /// Effective moduli of cells under the axial tension of the recording; empty where there are none.
+  std::span<const double> effective_modulus_kPa, effective_error_kPa;
+  std::span<const ModulusState> effective_state;
 };
 
 /// What there is beside area, deformation, viscosity, Young's modulus and its state.
@@ -30,6 +33,7 @@ struct EventKnowledge {
   bool shapes = false;     ///< against those of the table
   bool asymmetry = false;  ///< of contours or masks
   std::optional<ElongatedBy> elongated_by = {};
+  bool effective = false;  ///< moduli of cells with a cortex under the axial tension of the recording
 };
 
 }  // namespace rheocyte

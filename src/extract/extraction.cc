@@ -7,12 +7,15 @@
 #include <numbers>
 
 #include "case/user_error.h"
+#include "events/event_pass.h"
 #include "events/plausibility.h"
 #include "events/settings_hash.h"
 #include "extract/common_errors.h"
 #include "extract/fitting_table.h"
 #include "extract/soft_ends.h"
 #include "extract/virtual_cells.h"
+#include "infer/cells_under_tension.h"
+#include "infer/grid_map.h"
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 
@@ -44,18 +47,21 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       events_(recording, options.measuring, {.pixels = pixel_use(options)}),
       table_(tables.used(conditions().flow.exponent)),
       comparison_(table_, tables.other(conditions().flow.exponent)),
+      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()),
       are_square_(tables.are_square()),
       event_shapes_(recording, conditions(),
                     EventShapes::are_measured(recording) ? shape_tables(tables, conditions().flow.exponent)
                                                          : EventShapes::Tables{},
                     !options.no_asymmetry) {
+  if (!EventShapes::are_measured(recording)) shape_tally_.take_without_ratios();
   moduli_.reserve(recording.events());
   if (table_.is_rheocyte_table()) standard_errors_.reserve(recording.events());
 }
 
 void Extraction::Columns::resize(std::size_t count) {
-  for (auto* const column : {&area, &deformation, &modulus, &standard_error}) column->resize(count);
-  states.resize(count);
+  area.resize(count);
+  deformation.resize(count);
+  moduli.resize(count);
 }
 
 std::size_t Extraction::block() const {
@@ -73,24 +79,57 @@ EventBlock Extraction::compute(std::size_t first, std::size_t count) {
   const auto viscosity = events_.viscosity_mPas();
   const MeasuredEvents events{c.area, c.deformation, viscosity};
   comparison_.estimate(conditions(), events);
-  table().estimate(conditions(), events, {c.modulus, c.standard_error, c.states});
-  const Moduli moduli{c.modulus, c.standard_error, c.states};
+  const EstimatedModuli moduli = c.moduli.estimates();
+  table().estimate(conditions(), events, moduli);
   add_inertia_error(moduli);
   if (table().is_rheocyte_table()) mark_unresolved(moduli);
   compute_shapes(first, events);
+  if (effective_map_) compute_effective(events);
   leave_out_cut();
   if (!events_.gates().empty()) apply_gates();
   collect();
   const auto& s = c.shapes;
-  return {c.area,   c.deformation,        viscosity,  c.modulus, c.standard_error, c.states, s.excess,
-          s.mode_3, s.elongation.block(), s.outlines, s.tilt};
+  return {c.area,
+          c.deformation,
+          viscosity,
+          c.moduli.kPa,
+          c.moduli.standard_error_kPa,
+          c.moduli.states,
+          s.excess,
+          s.mode_3,
+          s.elongation.block(),
+          s.outlines,
+          s.tilt,
+          c.effective.kPa,
+          c.effective.standard_error_kPa,
+          c.effective.states};
+}
+
+bool Extraction::take_tension(const EffectiveCell& cell) {
+  if (!cell.is_found()) return false;
+  ChannelFlow flow = conditions().flow;
+  flow.viscosity_mPas = cell.viscosity_mPas;
+  auto grid =
+      grid_under_tension(*tables_.proportioned().front(), {flow, tables_.section()}, cell.axial_tension_Pa.value);
+  if (!grid) return false;
+  effective_map_ = std::make_unique<const GridMap>(*std::move(grid));
+  effective_cell_ = cell;
+  return true;
+}
+
+void Extraction::compute_effective(const MeasuredEvents& events) {
+  columns_.effective.resize(events.size.size());
+  const EstimatedModuli moduli = columns_.effective.estimates();
+  effective_map_->estimate(conditions(), events, moduli);
+  add_inertia_error(moduli);
+  mark_unresolved(moduli);
 }
 
 void Extraction::compute_shapes(std::size_t first, const MeasuredEvents& events) {
   event_shapes_.compute(first, events, columns_.shapes);
   if (!event_shapes_.elongated_by()) return;
   ElongationValues& e = columns_.shapes.elongation;
-  const Moduli moduli{e.modulus_kPa, e.standard_error_kPa, e.states};
+  const EstimatedModuli moduli{e.modulus_kPa, e.standard_error_kPa, e.states};
   add_inertia_error(moduli);
   mark_unresolved(moduli);
   for (std::size_t i = 0; i < e.modulus_kPa.size(); ++i)
@@ -139,12 +178,16 @@ ExtractSummary Extraction::summary() {
   s.shapes.made_of = cells_made_of(events_.facts().made_of, events_.recording().metadata(), tables_, table(),
                                    conditions().flow.exponent);
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
+  s.shapes.is_tension_given = std::isfinite(tension_.error_Pa);
   s.shapes.has_elongated_table = event_shapes_.elongated_by().has_value();
   add_common_errors(s);
   add_soft_ends(s);
   if (s.shapes.fit() != ShapeVerdict::Fit::unknown && s.shapes.fit() != ShapeVerdict::Fit::model)
     s.shapes.other = fitting_table(tables_, conditions(), shape_tally_.judged());
-  if (s.shapes.has_effective_modulus()) add_effective_cell(s);
+  if (effective_map_)
+    add_effective_events(s);
+  else if (s.shapes.has_effective_modulus())
+    add_effective_cell(s);
   s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
   if (comparison_.is_made()) s.warnings.push_back(comparison_.sentence(conditions().flow.exponent));
@@ -157,9 +200,14 @@ void Extraction::add_effective_cell(ExtractSummary& s) const {
   ChannelFlow flow = conditions().flow;
   flow.viscosity_mPas = s.mean_viscosity_mPas;
   s.shapes.effective = effective_cell(tables_.proportioned(), shape_tally_.figures(), {flow, tables_.section()},
-                                      conditions().pixel_size_um);
+                                      conditions().pixel_size_um, tension_);
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), s.shapes.has_cortex_shapes(),
                       s.shapes.effective);
+}
+
+void Extraction::add_effective_events(ExtractSummary& s) const {
+  s.shapes.effective = effective_cell_;
+  s.shapes.effective.events_kPa = effective_moduli_.judged().median_kPa;
 }
 
 // Where moduli end in the tables, for a bound of a median beyond them.
@@ -192,6 +240,9 @@ std::vector<std::string> Extraction::lines() const {
       fmt::format("corrected for pixels: {}", corrected_for_pixels(conditions(), table()))};
   const RecordingFacts& facts = events_.facts();
   lines.insert(lines.end(), facts.settings.begin(), facts.settings.end());
+  if (effective_map_)
+    lines.push_back(fmt::format("effective moduli of events: under an axial tension of {:.4g} Pa, table {}",
+                                effective_cell_.axial_tension_Pa.value, effective_map_->origin().identifier));
   if (!facts.gates.empty()) lines.push_back("only events with " + facts.gates);
   lines.push_back("settings hash: " + settings_hash());
   return lines;
@@ -205,48 +256,51 @@ std::string Extraction::settings_hash() const {
     lines.push_back(fmt::format("elongated cells by {}, {}",
                                 event_shapes_.elongated_by() == ElongatedBy::modes ? "outlines" : "inertia ratio",
                                 decisive_line(elongated->solids().origin())));
+  if (std::isfinite(tension_.error_Pa)) lines.push_back(fmt::format("axial tension: {} Pa", tension_.value_Pa));
   return rheocyte::settings_hash(lines);
 }
 
 void Extraction::collect() {
   const auto viscosity = events_.viscosity_mPas();
-  for (std::size_t i = 0; i < columns_.states.size(); ++i) {
-    ++summary_.counts[static_cast<std::size_t>(columns_.states[i])];
-    if (has_modulus(columns_.states[i])) take_modulus(i);
+  for (std::size_t i = 0; i < columns_.moduli.states.size(); ++i) {
+    ++summary_.counts[static_cast<std::size_t>(columns_.moduli.states[i])];
+    if (has_modulus(columns_.moduli.states[i])) take_modulus(i);
+    if (effective_map_) effective_moduli_.take(columns_.effective.states[i], columns_.effective.kPa[i]);
     if (!std::isfinite(viscosity[i])) continue;
     viscosity_sum_ += viscosity[i];
     ++viscosities_;
   }
   const ShapeColumns& s = columns_.shapes;
-  shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um, columns_.modulus,
-                     s.elongation.block(), s.mode_4_excess, s.mode_5_excess, s.mode_4, s.y_um, s.tilt, columns_.states,
-                     s.elongation.states, s.elongation.cells});
+  shape_tally_.take({s.excess, s.inertia_ratio, columns_.area, columns_.deformation, s.mode_3, s.x_um,
+                     columns_.moduli.kPa, s.elongation.block(), s.mode_4_excess, s.mode_5_excess, s.mode_4, s.y_um,
+                     s.tilt, columns_.moduli.states, s.elongation.states, s.elongation.cells});
 }
 
 // What is known of it counts as an error of the modulus; events beyond that are flagged.
-void Extraction::add_inertia_error(const Moduli& moduli) {
-  for (std::size_t i = 0; i < moduli.states.size(); ++i) {
-    if (!has_modulus(moduli.states[i])) continue;
+void Extraction::add_inertia_error(const EstimatedModuli& moduli) {
+  for (std::size_t i = 0; i < moduli.state.size(); ++i) {
+    if (!has_modulus(moduli.state[i])) continue;
     const double reynolds = events_.reynolds(i);
     moduli.standard_error_kPa[i] =
-        std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.kPa[i]);
+        std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.modulus_kPa[i]);
     if (reynolds <= max_reynolds_number) continue;
-    moduli.states[i] = ModulusState::inertial;
+    moduli.state[i] = ModulusState::inertial;
   }
 }
 
 // Where the deformation or the asymmetry is lost in the scatter by pixels, the modulus could be any above some value.
-void Extraction::mark_unresolved(const Moduli& moduli) {
-  for (std::size_t i = 0; i < moduli.states.size(); ++i) {
-    if (!has_modulus(moduli.states[i]) || moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.kPa[i])
+void Extraction::mark_unresolved(const EstimatedModuli& moduli) {
+  for (std::size_t i = 0; i < moduli.state.size(); ++i) {
+    if (!has_modulus(moduli.state[i]) ||
+        moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.modulus_kPa[i])
       continue;
-    moduli.kPa[i] = moduli.standard_error_kPa[i] = no_value;
-    moduli.states[i] = ModulusState::unresolved;
+    moduli.modulus_kPa[i] = moduli.standard_error_kPa[i] = no_value;
+    moduli.state[i] = ModulusState::unresolved;
   }
 }
 
 void Extraction::apply_gates() {
-  for (std::size_t i = 0; i < columns_.states.size(); ++i)
+  for (std::size_t i = 0; i < columns_.moduli.states.size(); ++i)
     if (!events_.is_inside(i)) leave_out(i, ModulusState::gated);
 }
 
@@ -260,16 +314,26 @@ void Extraction::leave_out_cut() {
 
 void Extraction::leave_out(std::size_t i, ModulusState why) {
   Columns& c = columns_;
-  c.modulus[i] = c.standard_error[i] = no_value;
-  c.states[i] = why;
+  c.moduli.forget(i, why);
+  if (effective_map_) c.effective.forget(i, why);
   c.shapes.excess[i] = {no_value, no_value, no_value, no_value};
   if (event_shapes_.elongated_by()) c.shapes.elongation.forget(i, why);
 }
 
 void Extraction::take_modulus(std::size_t i) {
-  moduli_.push_back(columns_.modulus[i]);
-  if (table().is_rheocyte_table()) standard_errors_.push_back(static_cast<float>(columns_.standard_error[i]));
-  comparison_.take(i, columns_.modulus[i]);
+  moduli_.push_back(columns_.moduli.kPa[i]);
+  if (table().is_rheocyte_table())
+    standard_errors_.push_back(static_cast<float>(columns_.moduli.standard_error_kPa[i]));
+  comparison_.take(i, columns_.moduli.kPa[i]);
+}
+
+ExtractSummary summary_of_recording(const std::filesystem::path& file, const ExtractOptions& options,
+                                    const ModulusTables& tables, const TellProgress& on_progress) {
+  Recording recording(file);
+  EventPass pass(recording, on_progress);
+  Extraction extraction(recording, options, tables);
+  pass.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) { extraction.compute(first, count); });
+  return extraction.summary();
 }
 
 }  // namespace rheocyte

@@ -1,6 +1,8 @@
 // The moduli of the events of one recording: settings in, events and their summary out. Nothing is written.
 #pragma once
 #include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,10 +11,13 @@
 #include "extract/event_block.h"
 #include "extract/event_shapes.h"
 #include "extract/extract_summary.h"
+#include "extract/modulus_values.h"
+#include "extract/recommendation.h"
 #include "extract/shape_tally.h"
 #include "extract/table_comparison.h"
 #include "measurement/recording.h"
 #include "shelf/modulus_tables.h"
+#include "store/progress.h"
 
 namespace rheocyte {
 
@@ -33,8 +38,11 @@ class Extraction {
   /// What there is of each event.
   EventKnowledge knowledge() const {
     return {table_.is_rheocyte_table(), event_shapes_.is_known(), event_shapes_.has_asymmetry(),
-            event_shapes_.elongated_by()};
+            event_shapes_.elongated_by(), effective_map_ != nullptr};
   }
+  /// From now on events have an effective modulus, too: that of a cell under the axial tension of this one. False if
+  /// the cell has none, or the table of such cells has none under this tension; then nothing changes.
+  bool take_tension(const EffectiveCell& cell);
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
   void measure_outlines() { event_shapes_.measure_outlines(settings().pixel_size_um); }
   /// The number of events that are best computed at once.
@@ -49,8 +57,8 @@ class Extraction {
 
  private:
   struct Columns {
-    std::vector<double> area, deformation, modulus, standard_error;
-    std::vector<ModulusState> states;
+    std::vector<double> area, deformation;
+    ModulusValues moduli, effective;  ///< the latter of cells under an axial tension
     ShapeColumns shapes;
     void resize(std::size_t count);
   };
@@ -59,14 +67,11 @@ class Extraction {
   std::string beyond_the_square() const;
   void add_soft_ends(ExtractSummary& summary) const;
   void add_effective_cell(ExtractSummary& summary) const;
+  void add_effective_events(ExtractSummary& summary) const;
   void collect();
-  /// Young's moduli of the events of a block, and what is said about them.
-  struct Moduli {
-    std::span<double> kPa, standard_error_kPa;
-    std::span<ModulusState> states;
-  };
-  void add_inertia_error(const Moduli& moduli);
-  static void mark_unresolved(const Moduli& moduli);
+  void compute_effective(const MeasuredEvents& events);
+  void add_inertia_error(const EstimatedModuli& moduli);
+  static void mark_unresolved(const EstimatedModuli& moduli);
   void apply_gates();
   void leave_out_cut();
   /// Event `i` of the block has no modulus, for this reason.
@@ -78,15 +83,36 @@ class Extraction {
   EventReader events_;
   const ModulusMap& table_;
   TableComparison comparison_;
-  bool are_square_;  ///< the tables, of which those of the tube reach farther
+  AxialTension tension_;  ///< what is known of it before
+  bool are_square_;       ///< the tables, of which those of the tube reach farther
   EventShapes event_shapes_;
   ShapeTally shape_tally_;
   Columns columns_;
   ExtractSummary summary_;
+  std::unique_ptr<const ModulusMap> effective_map_;  ///< null: events have no effective modulus
+  EffectiveCell effective_cell_;                     ///< under whose tension they have one
+  SidedModuli effective_moduli_;
   std::vector<double> moduli_;
   std::vector<float> standard_errors_;
   double viscosity_sum_ = 0;
   std::size_t viscosities_ = 0;
 };
+
+/// Of all events of a recording, whose medians alone are wanted. UserError.
+ExtractSummary summary_of_recording(const std::filesystem::path& recording, const ExtractOptions& options,
+                                    const ModulusTables& tables, const TellProgress& on_progress);
+
+/// All events of a recording once, by `pass`, which computes all blocks of an extraction and returns its summary. Where
+/// the effective modulus is recommended once more: then events have one under the axial tension that the first pass
+/// found.
+template <class Pass>
+ExtractSummary extract_in_passes(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables,
+                                 const Pass& pass) {
+  Extraction first(recording, options, tables);
+  ExtractSummary summary = pass(first);
+  if (recommendation(summary.shapes).way != RecommendedWay::effective) return summary;
+  Extraction second(recording, options, tables);
+  return second.take_tension(summary.shapes.effective) ? pass(second) : summary;
+}
 
 }  // namespace rheocyte

@@ -88,6 +88,10 @@ SofterCells ShapeTally::softer() const {
   return softer;
 }
 
+bool ShapeTally::is_counted(const JudgedEvents& e, std::size_t i) {
+  return e.states.empty() || (e.states[i] != ModulusState::gated && e.states[i] != ModulusState::cut);
+}
+
 void ShapeTally::take(const JudgedEvents& e) {
   const auto at = [](std::span<const double> values, std::size_t i) {
     return values.empty() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(values[i]);
@@ -99,7 +103,7 @@ void ShapeTally::take(const JudgedEvents& e) {
       continue;
     }
     take_moduli(e, i);
-    if (!e.area_um2.empty() && !e.deformation.empty())
+    if (!e.area_um2.empty() && !e.deformation.empty() && is_counted(e, i))
       figures_.take(e.area_um2[i], e.deformation[i], e.inertia_ratio[i]);
     if (!std::isfinite(excess.excess)) continue;
     const ElongationBlock& drawn = e.elongation;

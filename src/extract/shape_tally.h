@@ -62,6 +62,8 @@ class ShapeTally {
   SofterCells softer() const;
   /// Of all events with area, deformation and inertia ratio, red cells apart, whether or not a table has such cells.
   const EventFigures& figures() const { return figures_; }
+  /// Before the first block: the recording has no inertia ratios.
+  void take_without_ratios() { figures_.has_ratios = false; }
 
  private:
   struct Event {
@@ -78,6 +80,8 @@ class ShapeTally {
   std::vector<Drawn> drawn_;
   std::size_t elongated_ = 0, red_cells_ = 0;
   void take_moduli(const JudgedEvents& events, std::size_t event);
+  /// Inside the gates, and whole.
+  static bool is_counted(const JudgedEvents& events, std::size_t event);
   SidedModuli by_deformation_, by_elongation_;
   EventFigures figures_;
   std::vector<double> softer_areas_;

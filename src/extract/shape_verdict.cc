@@ -43,7 +43,7 @@ bool ShapeVerdict::has_cortex_shapes() const {
 }
 
 bool ShapeVerdict::has_effective_modulus() const {
-  if (has_cortex_shapes()) return true;
+  if (is_tension_given || has_cortex_shapes()) return true;
   const bool are_outlines_of_solids = elongated_by == ElongatedBy::modes && with_elongation >= fewest_for_a_verdict;
   return fit() == Fit::elongated && !are_outlines_of_solids;
 }

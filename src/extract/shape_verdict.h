@@ -87,6 +87,7 @@ struct ShapeVerdict {
   double radius_px = no_value;      ///< of the circle with the median area, where the size of the pixels is known
   Median elongation, axial_tension_Pa;
   EffectiveCell effective;              ///< of cells that are longer than the flow makes them
+  bool is_tension_given = false;        ///< the axial tension of the liquid, by which cells have an effective modulus
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
 
@@ -98,7 +99,7 @@ struct ShapeVerdict {
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
                     s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
                     s.with_elongation, s.modulus_ratio, s.asymmetry, s.radius_px, s.elongation, s.axial_tension_Pa,
-                    s.effective, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.effective, s.is_tension_given, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
   }
 
   double elongated_percent() const;

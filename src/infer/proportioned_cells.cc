@@ -66,6 +66,15 @@ void add_lost_corners(double lacking_deformation, ShapeErrors& pixels) {
   }
 }
 
+/// Lambda1 / Lambda2 has an error within which every cell lies.
+Eigen::Matrix3d without_ratio(Eigen::Matrix3d covariance) {
+  constexpr double variance = 1e4;
+  covariance.row(2).setZero();
+  covariance.col(2).setZero();
+  covariance(2, 2) = variance;
+  return covariance;
+}
+
 Eigen::Matrix3d figure_of(const ShapeErrors& errors) { return errors.covariance(figure, figure); }
 
 }  // namespace
@@ -82,22 +91,36 @@ ProportionedCells::ProportionedCells(const CombinedTable& table)
         table.spec.identifier));
 }
 
+double ProportionedCells::effective_modulus_kPa(const CellCoordinates& cell) const {
+  return rheocyte::effective_modulus_kPa(fit_.at_rest(), cell, between_.at(cell)).value;
+}
+
+ShapeErrors ProportionedCells::added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube,
+                                                const Sight& sight) const {
+  constexpr int rounds = 3;  // the change by the square hardly depends on the shape
+  ShapeErrors by_square;
+  if (sight.section != Section::square) return by_square;
+  for (int round = 0; round < rounds; ++round) {
+    const ShapeVector smooth = in_tube + by_square.bias;
+    by_square = change_by_square({.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 *
+                                            std::numbers::inv_sqrtpi / sight.flow.width_um,
+                                  .mode_2 = smooth(mode_2),
+                                  .mode_3 = smooth(mode_3),
+                                  .cortex_fraction = cell(x_fraction),
+                                  .cortex_tension = cell(x_fraction) * cell(x_ratio),
+                                  .thinning = simulated_.exponent - sight.flow.exponent});
+  }
+  return by_square;
+}
+
+ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, const Sight& sight) const {
+  return added_by_section(cell, fit_.shape_of(cell, sight.flow), sight).bias;
+}
+
 ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
                                                   double pixel_size_um) const {
-  constexpr int rounds = 3;  // the change by the square hardly depends on the shape
   const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
-  ShapeErrors by_square;
-  if (sight.section == Section::square)
-    for (int round = 0; round < rounds; ++round) {
-      const ShapeVector smooth = in_tube + by_square.bias;
-      by_square = change_by_square({.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 *
-                                              std::numbers::inv_sqrtpi / sight.flow.width_um,
-                                    .mode_2 = smooth(mode_2),
-                                    .mode_3 = smooth(mode_3),
-                                    .cortex_fraction = cell(x_fraction),
-                                    .cortex_tension = cell(x_fraction) * cell(x_ratio),
-                                    .thinning = simulated_.exponent - sight.flow.exponent});
-    }
+  ShapeErrors by_square = added_by_section(cell, in_tube, sight);
   by_square.covariance *= sight.error_factor * sight.error_factor;
   if (!(pixel_size_um > 0)) return {by_square, {}};
   const ShapeVector smooth = in_tube + by_square.bias;
@@ -122,49 +145,48 @@ CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
 }
 
 bool ProportionedCells::has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow,
-                                         const CellCoordinates& cell) const {
-  const auto effective_at = [&](const CellCoordinates& place) {
-    return effective_modulus_kPa(fit_.at_rest(), place, between_.at(place)).value;
-  };
-  const double own = effective_at(cell);
+                                         const AxialTension& tension, const CellCoordinates& cell) const {
+  const double own = effective_modulus_kPa(cell);
   return std::ranges::any_of(other_stiffnesses, [&](double factor) {
     CellCoordinates start = cell;  // under the same tension
     start(x_progress) -= std::log(factor), start(x_axial) /= factor;
     start = start.cwiseMax(between_.box().least).cwiseMin(between_.box().greatest);
-    const auto other = fit_.nearest(shape, flow, AxialTension::unknown(), &start);
+    const auto other = fit_.nearest(shape, flow, tension, &start);
     return other && other->chi_squared < same_chi_squared && between_.is_inside(other->cell) &&
-           std::abs(std::log(effective_at(other->cell) / own)) > same_modulus;
+           std::abs(std::log(effective_modulus_kPa(other->cell) / own)) > same_modulus;
   });
 }
 
-ProportionedEstimate ProportionedCells::estimate(const SeenFigure& seen, const Sight& sight,
-                                                 double pixel_size_um) const {
+ProportionedEstimate ProportionedCells::estimate(SeenFigure seen, const Sight& sight, double pixel_size_um,
+                                                 const AxialTension& tension) const {
   constexpr int rounds = 4;  // the errors hardly depend on the cell
+  constexpr double usual_ratio = 0.4;
+  const bool has_ratio = !std::isnan(seen.value(2)) || std::isinf(tension.error_Pa);
+  if (!has_ratio) seen = {{seen.value(0), seen.value(1), usual_ratio}, without_ratio(seen.covariance)};
   MeasuredShape shape{first_shape(seen), {}};
   set_figure(seen.covariance, shape.errors);
   std::optional<BulkCortexFit::Candidate> nearest;
   Added errors;
   for (int round = 0; round < rounds; ++round) {
-    nearest = fit_.nearest(shape, sight.flow, AxialTension::unknown(), nearest ? &nearest->cell : nullptr);
+    nearest = fit_.nearest(shape, sight.flow, tension, nearest ? &nearest->cell : nullptr);
     if (!nearest) return {};
     errors = added(nearest->cell, sight, pixel_size_um);
     shape.errors.bias = errors.by_square.bias + errors.by_pixels.bias;
   }
   const auto with_errors = [&](const Eigen::Matrix3d& covariance) {
-    set_figure(covariance, shape.errors);
-    return fit_.fit(shape, sight.flow, AxialTension::unknown());
+    set_figure(has_ratio ? covariance : without_ratio(covariance), shape.errors);
+    return fit_.fit(shape, sight.flow, tension);
   };
   const Eigen::Matrix3d of_picture = figure_of(errors.by_pixels);
   Eigen::Matrix3d in_common = left_of_picture * left_of_picture * of_picture + figure_of(errors.by_square);
   in_common.diagonal().array() += least_variance;
   in_common(1, 1) += std::pow(between_.spec().accuracy * seen.value(1), 2);
   ProportionedEstimate found{with_errors(seen.covariance), with_errors(in_common), {}};
-  found.is_ambiguous = has_others_alike(shape, sight.flow, found.by_scatter.cell);
+  found.is_ambiguous = has_others_alike(shape, sight.flow, tension, found.by_scatter.cell);
   if (pixel_size_um > 0) found.of_picture = with_errors(of_picture);
   if (found.by_scatter.status == ModuliStatus::outside_table) {
-    const CellCoordinates last = held_inside(found.by_scatter.cell);
-    found.softest_kPa = effective_modulus_kPa(fit_.at_rest(), last, between_.at(last)).value *
-                        scale_factors(simulated_, sight.flow).modulus;
+    found.softest_kPa =
+        effective_modulus_kPa(held_inside(found.by_scatter.cell)) * scale_factors(simulated_, sight.flow).modulus;
   }
   return found;
 }

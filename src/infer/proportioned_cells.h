@@ -35,20 +35,29 @@ class ProportionedCells {
   ProportionedCells(const ProportionedCells&) = delete;
   ProportionedCells& operator=(const ProportionedCells&) = delete;
 
-  /// The cell that is seen so; a pixel size of zero: without pixels.
-  ProportionedEstimate estimate(const SeenFigure& seen, const Sight& sight, double pixel_size_um) const;
+  /// The cell that is seen so; a pixel size of zero: without pixels. Where the axial tension of the liquid is known,
+  /// Lambda1 / Lambda2 may be missing (NaN).
+  ProportionedEstimate estimate(SeenFigure seen, const Sight& sight, double pixel_size_um,
+                                const AxialTension& tension = AxialTension::unknown()) const;
 
   const CombinedInterpolation& table() const { return between_; }
+  const ChannelFlow& simulated() const { return simulated_; }  ///< the table's channel
+  /// Of a cell of the table, in the table's flow.
+  double effective_modulus_kPa(const CellCoordinates& cell) const;
+  /// What the section of the channel adds to the features of a cell of the table, on average.
+  ShapeVector change_by_section(const CellCoordinates& cell, const Sight& sight) const;
 
  private:
   /// What is added to the features of a cell of the table.
   struct Added {
     ShapeErrors by_square, by_pixels;
   };
+  ShapeErrors added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight) const;
   Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
   /// The cell, or the last one of the table on the way there from a stiffer one.
   CellCoordinates held_inside(CellCoordinates cell) const;
-  bool has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow, const CellCoordinates& cell) const;
+  bool has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension,
+                        const CellCoordinates& cell) const;
 
   CombinedInterpolation between_;
   ChannelFlow simulated_;

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -43,12 +44,16 @@ ExtractedEvents extracted(const std::filesystem::path& file, const ExtractOption
   const ModulusTables tables(options.table, options.section);
   Recording recording(file);
   EventPass pass(recording, report_progress);
-  Extraction extraction(recording, options, tables);
-  GatheredColumns<EventBlock> events(event_columns(extraction.knowledge()));
-  pass.in_blocks(extraction.block(),
-                 [&](std::size_t first, std::size_t count) { events.append(extraction.compute(first, count)); });
-  ExtractSummary summary = extraction.summary();
-  return {{events.events(), events.write(memory), extraction.lines(), summary.warnings, summary.settings_hash},
+  std::optional<GatheredColumns<EventBlock>> events;
+  std::vector<std::string> lines;
+  ExtractSummary summary = extract_in_passes(recording, options, tables, [&](Extraction& extraction) {
+    events.emplace(event_columns(extraction.knowledge()));
+    pass.in_blocks(extraction.block(),
+                   [&](std::size_t first, std::size_t count) { events->append(extraction.compute(first, count)); });
+    lines = extraction.lines();
+    return extraction.summary();
+  });
+  return {{events->events(), events->write(memory), std::move(lines), summary.warnings, summary.settings_hash},
           std::move(summary)};
 }
 

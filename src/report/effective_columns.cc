@@ -39,7 +39,15 @@ Columns<E> effective_columns() {
       .add({"effective_modulus_over_other_law", "", "Effective modulus over that by the other law",
             "by a cortex with an energy per current area over that by one with an energy per reference area"},
            &E::over_other_law)
-      .add({"effective_place", "", "Place in the table of cells with a cortex",
+      .add({"effective_modulus_share_percent", "%", "Events with an effective modulus",
+            "of the events that have one under that axial tension, or lie on a known side of the table"},
+           [](const E& e) { return e.events_kPa.all() > 0 ? 100 * e.events_kPa.share() : no_value; })
+      .add_with_error(
+          {"effective_modulus_of_events_median_kPa", "kPa", "Effective modulus of the events, median",
+           "of all events under that axial tension; those beyond the table count on their side", "", 0,
+           digits_of_values},
+          [](const E& e) { return e.events_kPa.value; }, [](const E& e) { return e.events_kPa.error; });
+  list.add({"effective_place", "", "Place in the table of cells with a cortex",
             "\"inside\", \"softer\", \"longer\", \"stiffer\", \"other size\" or \"ambiguous\""},
            place_word);
   return std::move(list).columns();

@@ -11,7 +11,15 @@ namespace rheocyte {
 namespace {
 
 /// Among the free names of companions.
-enum Rank { rank_of_state = 1, rank_of_error, rank_of_elongation, rank_of_shapes, rank_of_tilt, rank_of_last_errors };
+enum Rank {
+  rank_of_state = 1,
+  rank_of_effective,
+  rank_of_error,
+  rank_of_elongation,
+  rank_of_shapes,
+  rank_of_tilt,
+  rank_of_last_errors
+};
 
 std::string meaning_of_states() {
   std::string text = "state of emodulus:";
@@ -53,6 +61,23 @@ void add_tilt(ColumnsOf<EventBlock>& columns) {
                        of_each(&EventBlock::tilt, feature.value)});
 }
 
+void add_effective(ColumnsOf<EventBlock>& columns) {
+  const ColumnsOf<EventBlock> of_cells{
+      {{"effective_modulus_kPa", "kPa", "Effective Young's modulus",
+        "effective Young's modulus of the cell under the axial tension of the recording", "effective_modulus_kPa",
+        rank_of_effective},
+       stored(&EventBlock::effective_modulus_kPa)},
+      {{"effective_modulus_kPa_error", "kPa", "Standard error of the effective modulus",
+        "of pixels, table and inertia; the axial tension is taken as known"},
+       stored(&EventBlock::effective_error_kPa)},
+      {{.name = "effective_state",
+        .label = "State of the effective modulus",
+        .sentence = "whether there is an effective modulus, or why there is none",
+        .words = names_of_modulus_states},
+       of_each(&EventBlock::effective_state, [](ModulusState state) { return int(state); })}};
+  columns.insert(columns.end(), of_cells.begin(), of_cells.end());
+}
+
 }  // namespace
 
 ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
@@ -75,6 +100,7 @@ ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
                       .rank = rank_of_state,
                       .words = names_of_modulus_states},
                      of_each(&B::state, [](ModulusState state) { return int(state); })});
+  if (known.effective) add_effective(columns);
   if (known.shapes) add_shapes(columns);
   if (known.asymmetry)
     columns.push_back({{"mode_3", "", "Mode c3 of the outline",
@@ -92,7 +118,7 @@ ColumnsOf<EventBlock> event_columns(const EventKnowledge& known) {
 std::vector<ColumnDescription> companion_columns() {
   std::vector<ColumnDescription> all;
   for (const auto by : {ElongatedBy::modes, ElongatedBy::inertia})
-    for (const auto& column : event_columns({true, true, true, by}))
+    for (const auto& column : event_columns({true, true, true, by, true}))
       if (!column.role.empty() && std::ranges::find(all, column.role, &ColumnDescription::role) == all.end())
         all.push_back(column);
   std::ranges::stable_sort(all, {}, &ColumnDescription::rank);

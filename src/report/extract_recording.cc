@@ -103,24 +103,17 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
                                  const ModulusTables& tables, const TellProgress& on_progress) {
   Recording recording(file);
   check_same_recording(files.place(), recording);
-  EventPass pass(recording, on_progress);
-  Extraction extraction(recording, options, tables);
-  Writers writers(files, recording, extraction);
-  pass.in_blocks(extraction.block(),
-                 [&](std::size_t first, std::size_t count) { writers.write(first, extraction.compute(first, count)); });
-  ExtractSummary summary = extraction.summary();
-  writers.close(summary);
-  if (const auto missing = writers.missing(); !missing.empty()) summary.warnings.push_back(missing);
-  return summary;
-}
-
-ExtractSummary summary_of_recording(const fs::path& file, const ExtractOptions& options, const ModulusTables& tables,
-                                    const TellProgress& on_progress) {
-  Recording recording(file);
-  EventPass pass(recording, on_progress);
-  Extraction extraction(recording, options, tables);
-  pass.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) { extraction.compute(first, count); });
-  return extraction.summary();
+  EventPass events(recording, on_progress);
+  return extract_in_passes(recording, options, tables, [&](Extraction& extraction) {
+    Writers writers(files, recording, extraction);
+    events.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) {
+      writers.write(first, extraction.compute(first, count));
+    });
+    ExtractSummary summary = extraction.summary();
+    writers.close(summary);
+    if (const auto missing = writers.missing(); !missing.empty()) summary.warnings.push_back(missing);
+    return summary;
+  });
 }
 
 }  // namespace rheocyte

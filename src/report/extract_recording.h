@@ -51,8 +51,4 @@ ExtractSummary extract_recording(const std::filesystem::path& recording, const E
                                  const ExtractOptions& options, const ModulusTables& tables,
                                  const TellProgress& on_progress);
 
-/// The same without files: what is said of the recording alone.
-ExtractSummary summary_of_recording(const std::filesystem::path& recording, const ExtractOptions& options,
-                                    const ModulusTables& tables, const TellProgress& on_progress);
-
 }  // namespace rheocyte

@@ -147,6 +147,7 @@ const Columns<PopulationReport>& population_columns() {
   static const Columns<P> columns = [] {
     ColumnList<P> list;
     list.add({.name = "model"}, &P::model);
+    list.add({.name = "model_chosen_because", .sentence = "where the shapes of the cells decide"}, &P::why_this_model);
     list.add({.name = "by", .sentence = "from what the stiffness follows, beside the area"},
              [](const P& p) { return name_of(p.by); });
     list.add({.name = "level", .sentence = "of the intervals"}, &P::level);

@@ -148,6 +148,8 @@ std::string checks_line(const PopulationReport& report) {
 
 std::vector<std::string> population_lines(const PopulationReport& report) {
   std::vector<std::string> lines;
+  if (!report.why_this_model.empty())
+    lines.push_back(fmt::format("--model {}, because {}", report.model, report.why_this_model));
   for (const auto& c : report.conditions) lines.push_back(condition_line(c, report.by));
   const auto quantities = report.quantities();
   if (std::ranges::find(quantities, PopulationQuantity::effective_modulus) != quantities.end())

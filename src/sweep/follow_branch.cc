@@ -87,8 +87,10 @@ class BranchSampler {
       if (way.status != Status::converged) failure_ = way.status;
       const bool has_moved = moved > min_step_ / 4;
       const double allowed = has_moved ? allowed_step(before, next) : h;
-      if (moved > excess * allowed && growth * allowed > min_step_ / 2) {
-        h = growth * allowed;
+      // A nearer state than this one; what lies within the shortest step is as near as any.
+      const double nearer = std::max(growth * allowed, min_step_);
+      if (moved > excess * std::max(allowed, nearer) && growth * allowed > min_step_ / 2) {
+        h = nearer;
         ahead_.push_back(std::move(next));
         continue;
       }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -138,6 +139,30 @@ TEST(EffectiveCellInMemory, OutliersHardlyMoveIt) {
     events.area_um2.push_back(60), events.deformation.push_back(0.3), events.inertia_ratio.push_back(0.4);
   }
   EXPECT_NEAR(effective_of(events).effective_kPa.value, before, 0.03 * before);
+}
+
+/// A recording without inertia ratios, whose liquid has the axial tension of others.
+TEST(EffectiveCellInMemory, AKnownTensionReplacesInertiaRatios) {
+  const EventFigures whole = seen_events({0.3, 0.2, 0, 400}, 11);
+  const EffectiveCell by_shapes = effective_of(whole);
+  EventFigures events = whole;
+  events.has_ratios = false;
+  std::ranges::fill(events.inertia_ratio, no_value);
+  const std::vector<const ProportionedCells*> laws{&cells()};
+  EXPECT_EQ(effective_cell(laws, events, {flow}, pixel_um).place, EffectivePlace::unknown);
+  const AxialTension known{by_shapes.axial_tension_Pa.value, 0};
+  const EffectiveCell by_tension = effective_cell(laws, events, {flow}, pixel_um, known);
+  ASSERT_TRUE(by_tension.is_found());
+  EXPECT_NEAR(by_tension.effective_kPa.value / by_shapes.effective_kPa.value, 1, 2e-3);
+  EXPECT_NEAR(by_tension.axial_tension_Pa.value, known.value_Pa, 0.01 * known.value_Pa);
+  // The error of the tension is part of that of the modulus.
+  const auto under = [&](double over_known, double relative_error) {
+    const AxialTension tension{over_known * known.value_Pa, relative_error * known.value_Pa};
+    return effective_cell(laws, events, {flow}, pixel_um, tension).effective_kPa;
+  };
+  const double change = (under(1.03, 0).value - under(0.97, 0).value) / 0.06 * 0.1;
+  EXPECT_NEAR(std::hypot(by_tension.effective_kPa.error, change) / under(1, 0.1).error, 1,
+              0.15);  // corrections for pixels and section move with the cell
 }
 
 }  // namespace

@@ -40,6 +40,34 @@ def test_every_sample_has_an_effective_modulus_by_all_of_its_events(lines):
         assert line["effective_place"] == "inside"
 
 
+def test_nearly_every_event_has_an_effective_modulus_under_that_tension(lines):
+    for name, line in lines.items():
+        share = float(line["effective_modulus_share_percent"])
+        assert share > (55 if name.startswith("LatB") else 88), name
+        of_events = float(line["effective_modulus_of_events_median_kPa"] or "nan")
+        assert abs(of_events / median(line) - 1) < 0.07, name
+        if name.startswith("LatB") and name.endswith("_0"):
+            assert share > 98
+
+
+def test_the_shapes_choose_the_cells_of_a_population(program, tmp_path):
+    run = subprocess.run([program, "population", "--no-picture", "-o", tmp_path / "chosen", "--condition",
+                          f"control={DOSES / 'LatB_set1_0.rtdc'},{DOSES / 'LatB_set2_0.rtdc'}"],
+                         check=True, capture_output=True, text=True)
+    assert "--model effective, because the cells of 2 of 2 recordings are longer" in run.stdout
+
+
+def test_a_gate_counts_in_the_effective_modulus(program, tmp_path):
+    sample = DOSES / "LatB_set2_0.rtdc"
+    subprocess.run([program, "extract", "--quiet", "--max", "deform=0.07", "-o", tmp_path, sample], check=True, capture_output=True)
+    with open(tmp_path / "rheocyte_summary.tsv", newline="", encoding="utf-8") as file:
+        gated = next(csv.DictReader(file, delimiter="\t"))
+    subprocess.run([program, "population", "--quiet", "--no-picture", "--max", "deform=0.07", "-o", tmp_path / "p", "--condition",
+                    f"a={sample}"], check=True, capture_output=True)
+    record = json.loads((tmp_path / "p" / "population.json").read_text(encoding="utf-8"))
+    assert math.isclose(record["recordings"][0]["effective_modulus_median_kPa"], float(gated["effective_modulus_kPa"]), rel_tol=1e-3)
+
+
 def test_latrunculin_softens_the_cells_by_a_third_and_more(lines):
     logs = {dose: [math.log(median(lines[f"LatB_set{day}_{dose}"]) / median(lines[f"LatB_set{day}_0"])) for day in (1, 2, 3)]
             for dose in LATRUNCULIN}

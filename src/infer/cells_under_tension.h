@@ -1,0 +1,15 @@
+// The effective modulus over area and deformation of cells under a known axial tension of the liquid, as a grid: with
+// the tension of a recording each of its events has a modulus (docs/theory-extract.md, sec. "The effective modulus").
+#pragma once
+#include <optional>
+
+#include "infer/proportioned_cells.h"
+#include "table/stiffness_grid.h"
+
+namespace rheocyte {
+
+/// Without pixels, in the channel and flow of the table; the stiffness is the effective modulus. `tension_Pa` is that
+/// in the recording's flow. Nothing if the table has no cells under such a tension.
+std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa);
+
+}  // namespace rheocyte
