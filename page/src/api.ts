@@ -272,6 +272,9 @@ export interface Population {
   conditions: (PopulationRow & { condition: string })[];
   comparisons: (PopulationRow & { control: string; treated: string; quantity: string; ratio: number; p: number | null })[];
   recordings: PopulationRecording[];
+  /** where conditions have doses */
+  dose_responses?: (PopulationRow & { quantity: string; p_of_trend: number | null })[];
+  doses?: { unit: string };
 }
 
 export interface PopulationAnswer {

@@ -34,6 +34,7 @@ def extract(
     no_pixelation: bool = False,
     no_area_correction: bool = False,
     no_asymmetry: bool = False,
+    axial_tension_Pa: float | None = None,
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def moduli(
@@ -91,6 +92,7 @@ def population(
     shared_spread: bool = False,
     outline_noise_um: float | None = None,
     table: _Path | None = None,
+    axial_tension_Pa: float | None = None,
     no_bins: bool = False,
     jobs: float | None = None,
     channel_width_um: float | None = None,

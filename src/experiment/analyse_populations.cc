@@ -29,7 +29,12 @@ class PopulationAnalysis {
   PopulationAnalysis(const PopulationOptions& options, const std::vector<PopulationCondition>& conditions,
                      std::string why_this_model);
 
-  void add(std::size_t condition, std::size_t session, const PopulationEvents& events, const Watch& watch);
+  /// One of the recordings, with what is known of its shapes.
+  struct Place {
+    std::size_t condition, session;
+    const std::optional<ShapeVerdict>& shapes;
+  };
+  void add(const Place& place, const PopulationEvents& events, const Watch& watch);
   /// Of all that were added.
   PopulationReport report();
 
@@ -37,7 +42,7 @@ class PopulationAnalysis {
   /// In what recordings differ that belong together.
   std::vector<std::string> unlike_recordings() const;
   std::string hash_of_settings(const std::string& table, const PopulationEvents& events) const;
-  RecordingReport described(std::size_t condition, std::size_t session, const PopulationEvents& events) const;
+  RecordingReport described(const Place& place, const PopulationEvents& events) const;
   void check_new(const RecordingReport& recording, const PopulationEvents& events);
 
   const PopulationOptions& options_;
@@ -78,13 +83,18 @@ std::string PopulationAnalysis::hash_of_settings(const std::string& table, const
   return settings_hash(lines);
 }
 
-RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t session,
-                                              const PopulationEvents& events) const {
+RecordingReport PopulationAnalysis::described(const Place& place, const PopulationEvents& events) const {
   RecordingReport r;
   static_cast<RecordingFacts&>(r) = events;
-  r.recording = conditions_[condition].recordings[session];
-  r.condition = condition;
-  r.session = session;
+  r.recording = conditions_[place.condition].recordings[place.session];
+  r.condition = place.condition;
+  r.session = place.session;
+  for (std::size_t m = 0; m < events.seen.size(); ++m)
+    if (events.has(SeenMeasure(m))) r.observed[m] = median_with_error(events.seen[m]);
+  if (place.shapes) {
+    r.by_deformation_kPa = place.shapes->by_deformation.median_kPa;
+    r.elongated_kPa = place.shapes->by_elongation.median_kPa;
+  }
   r.median_viscosity_mPas = median_of(events.of(SeenMeasure::viscosity_mPas));
   r.median_elongation = no_value;
   if (events.has_inertia_ratios)
@@ -99,9 +109,8 @@ RecordingReport PopulationAnalysis::described(std::size_t condition, std::size_t
   return r;
 }
 
-void PopulationAnalysis::add(std::size_t condition, std::size_t session, const PopulationEvents& events,
-                             const Watch& watch) {
-  RecordingReport r = described(condition, session, events);
+void PopulationAnalysis::add(const Place& place, const PopulationEvents& events, const Watch& watch) {
+  RecordingReport r = described(place, events);
   if (events.events() == 0)
     refuse_path(r.recording, events.gates.empty() ? "has no event with an outline, a size and a viscosity."
                                                   : "has no event inside the gates (" + events.gates + ").");
@@ -160,7 +169,8 @@ PopulationReport PopulationAnalysis::report() {
 
 PopulationReport analyse(const std::vector<PopulationCondition>& conditions, const PopulationOptions& options,
                          const Watch& watch) {
-  ChosenModel model = model_of_shapes(conditions, options, watch);
+  const auto shapes = shapes_of(conditions, options, watch);
+  ChosenModel model = model_of_shapes(options, shapes);
   PopulationOptions decided = options;
   decided.model = model.name;
   const std::optional<StiffnessMeasure> measure =
@@ -175,7 +185,7 @@ PopulationReport analyse(const std::vector<PopulationCondition>& conditions, con
         return read_population_events(recording, options.measuring, measure,
                                       [&](double fraction) { report_progress((done + 0.5 * fraction) / all); });
       };
-      analysis.add(c, j, read_isolated(recording, options.measuring, watch, read), watch);
+      analysis.add({c, j, shapes[std::size_t(done)]}, read_isolated(recording, options.measuring, watch, read), watch);
       watch.progress(++done / all);
     }
   return analysis.report();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "experiment/unlike_recordings.h"
+#include "numeric/quantile.h"
 
 namespace rheocyte {
 namespace {
@@ -43,10 +43,6 @@ std::vector<RecordingMean> means_of(const std::vector<QuantityEstimate>& estimat
   std::vector<RecordingMean> means;
   for (const auto& e : estimates) means.push_back(e.mean);
   return means;
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 /// A comparison of the condition with zero has the interval of its mean.

@@ -1,13 +1,20 @@
-// Which cells recordings are of, where the user does not say: by the rule of `rheocyte extract`, whose recommended
-// modulus is that of solids or the effective one.
+// What `rheocyte extract` says of the shapes of recordings, and which cells a population takes them for where the user
+// does not say: solids, or cells with an effective modulus.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiment/population_recordings.h"
+#include "extract/shape_verdict.h"
 #include "store/watch.h"
 
 namespace rheocyte {
+
+/// Of each recording, condition by condition; nothing where a modulus of solids cannot be computed. Reads each one in a
+/// process of its own. StoppedBySignal once `watch` wants the end.
+std::vector<std::optional<ShapeVerdict>> shapes_of(const std::vector<PopulationCondition>& conditions,
+                                                   const PopulationOptions& options, const Watch& watch);
 
 struct ChosenModel {
   std::string name;  ///< as of --model
@@ -15,9 +22,7 @@ struct ChosenModel {
 };
 
 /// The user's, or "effective" if most recordings whose shapes are known have an effective modulus, else "solid";
-/// options that only solids have mean these. Reads each recording in a process of its own. StoppedBySignal once `watch`
-/// wants the end; UserError for what is wrong with a recording.
-ChosenModel model_of_shapes(const std::vector<PopulationCondition>& conditions, const PopulationOptions& options,
-                            const Watch& watch);
+/// options that only solids have mean these.
+ChosenModel model_of_shapes(const PopulationOptions& options, const std::vector<std::optional<ShapeVerdict>>& shapes);
 
 }  // namespace rheocyte

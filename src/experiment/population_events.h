@@ -45,6 +45,11 @@ struct PopulationEvents : RecordingFacts {
   /// Of at least one event; what is not measured is 0.
   ShapeVector median_shape() const;
   const std::vector<double>& of(SeenMeasure m) const { return seen[std::size_t(m)]; }
+  /// Whether the recording has it.
+  bool has(SeenMeasure m) const {
+    if (m == SeenMeasure::inertia_ratio) return has_inertia_ratios;
+    return has_outlines || m < SeenMeasure::mode_2 || m > SeenMeasure::mode_7;
+  }
 
   /// For store/bytes.h.
   template <class Self>

@@ -1,5 +1,6 @@
 // What one recording says about its cells as a population.
 #pragma once
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "events/events_beyond.h"
 #include "events/recording_facts.h"
 #include "experiment/population_check.h"
+#include "experiment/population_events.h"
 #include "extract/effective_cell.h"
 #include "infer/combined_population.h"
 #include "numeric/no_value.h"
@@ -71,6 +73,8 @@ struct RecordingReport : RecordingFacts {
   bool is_binned = false;
   std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
   double log_radius = no_value, radius_spread = no_value;
+  std::array<Median, seen_measures> observed = {};   ///< medians of what is measured, NaN of what is not
+  CensoredMedian by_deformation_kPa, elongated_kPa;  ///< E of solids, by `rheocyte extract`
   std::vector<MeasureCheck> checks;
   std::vector<std::string> warnings;  ///< with the remarks on the recording
   std::string settings_hash;          ///< events/settings_hash.h

@@ -18,7 +18,8 @@ struct SharedTension {
 std::optional<SharedTension> tension_of_setup(std::span<const RecordingReport> recordings,
                                               const RecordingReport& recording);
 
-/// One sentence for each set-up of at least three recordings that have a tension.
+/// Of each set-up of at least three recordings that have a tension: whether it is one, in all recordings and for cells
+/// of all sizes; and whether set-ups have it in proportion to the wall shear stress.
 std::vector<std::string> tensions_of_setups(const std::vector<RecordingReport>& recordings);
 
 }  // namespace rheocyte

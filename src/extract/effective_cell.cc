@@ -84,6 +84,24 @@ void add_moduli(const ProportionedEstimate& found, EffectiveCell& cell) {
   cell.radius_um = by_scatter.value(Modulus::cortex) / (by_scatter.stiffness_kPa - by_scatter.value(Modulus::young));
 }
 
+/// The third of the events with the smallest areas, or with the largest ones.
+enum class Third { small, large };
+EventFigures third_of(const EventFigures& events, Third which) {
+  const CountedSample<double> areas(events.area_um2);
+  const double lower = areas.quantile(1.0 / 3), upper = areas.quantile(2.0 / 3);
+  EventFigures third;
+  third.has_ratios = events.has_ratios;
+  for (std::size_t i = 0; i < events.area_um2.size(); ++i)
+    if (which == Third::small ? events.area_um2[i] < lower : events.area_um2[i] > upper)
+      third.take(events.area_um2[i], events.deformation[i], events.inertia_ratio[i]);
+  return third;
+}
+
+Median ratio_of(double large, double large_error, double small, double small_error) {
+  const double ratio = large / small;
+  return {ratio, ratio * std::hypot(large_error / large, small_error / small)};
+}
+
 /// Of ln of the effective modulus.
 double spread_between(const ProportionedEstimate& found, std::size_t events) {
   const auto variance = [](const ModuliEstimate& e) {
@@ -104,6 +122,25 @@ void EventFigures::take(double event_area_um2, double event_deformation, double 
   inertia_ratio.push_back(event_inertia_ratio);
 }
 
+namespace {
+
+void compare_sizes(const ProportionedCells& law, const EventFigures& events, const Sight& sight, double pixel_size_um,
+                   const AxialTension& tension, EffectiveCell& cell) {
+  const auto estimate = [&](Third which) {
+    return law.estimate(medians_of(third_of(events, which)), sight, pixel_size_um, tension);
+  };
+  const ProportionedEstimate small = estimate(Third::small), large = estimate(Third::large);
+  for (const ProportionedEstimate* third : {&small, &large})
+    if (place_of(law.table(), *third) != EffectivePlace::inside) return;
+  const ModuliEstimate &s = small.by_scatter, &l = large.by_scatter;
+  cell.large_over_small_modulus = ratio_of(l.effective_modulus_kPa, l.effective_modulus_error_kPa,
+                                           s.effective_modulus_kPa, s.effective_modulus_error_kPa);
+  cell.large_over_small_tension =
+      ratio_of(l.axial_tension_Pa, l.axial_tension_error_Pa, s.axial_tension_Pa, s.axial_tension_error_Pa);
+}
+
+}  // namespace
+
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
                              const Sight& sight, double pixel_size_um, const AxialTension& tension) {
   EffectiveCell cell;
@@ -120,6 +157,8 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   if (!cell.is_found()) return cell;
   add_moduli(found, cell);
   cell.spread = spread_between(found, cell.events);
+  if (cell.events >= 3 * min_events_of_effective_cell)
+    compare_sizes(*laws.front(), events, sight, pixel_size_um, tension, cell);
   if (laws.size() < 2) return cell;
   // Where its table ends first, it is continued; without such a cell NaN.
   const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um, tension).by_scatter;

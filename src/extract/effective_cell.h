@@ -37,7 +37,10 @@ struct EffectiveCell {
   double wall_stress_Pa = no_value, viscosity_mPas = no_value;
   double softest_kPa = no_value;     ///< effective modulus at the end of the table, of a softer cell
   double over_other_law = no_value;  ///< the effective modulus over that by the other law of the cortex
-  CensoredMedian events_kPa;         ///< of the effective moduli of all events under this axial tension
+  /// Of the median cell of the third of the events with the largest areas over that of the third with the smallest, and
+  /// their standard errors by scatter: the model has one axial tension for all sizes.
+  Median large_over_small_modulus, large_over_small_tension;
+  CensoredMedian events_kPa;  ///< of the effective moduli of all events under this axial tension
   bool is_found() const { return place == EffectivePlace::inside; }
 
   /// For store/bytes.h.
@@ -45,7 +48,8 @@ struct EffectiveCell {
   static auto fields(Self& s) {
     return std::tie(s.events, s.place, s.effective_kPa, s.stiffness_kPa, s.young_kPa, s.cortex_mN_per_m,
                     s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa, s.viscosity_mPas,
-                    s.softest_kPa, s.over_other_law, s.events_kPa);
+                    s.softest_kPa, s.over_other_law, s.large_over_small_modulus, s.large_over_small_tension,
+                    s.events_kPa);
   }
 };
 

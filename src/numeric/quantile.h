@@ -1,4 +1,4 @@
-// Quantiles of samples.
+// Quantiles and means of samples.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -118,6 +118,13 @@ template <class Number>
 double median_of(const std::vector<Number>& values) {
   if (values.empty()) return no_value;
   return CountedSample(std::span<const Number>(values)).neighbours(values.size() / 2).first;
+}
+
+/// NaN of no numbers.
+inline double mean_of(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
 }  // namespace rheocyte

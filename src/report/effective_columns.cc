@@ -39,6 +39,17 @@ Columns<E> effective_columns() {
       .add({"effective_modulus_over_other_law", "", "Effective modulus over that by the other law",
             "by a cortex with an energy per current area over that by one with an energy per reference area"},
            &E::over_other_law)
+      .add_with_error(
+          {"effective_modulus_large_over_small", "", "Effective modulus of large over small cells",
+           "of the third of the events with the largest areas over the third with the smallest", "", 0,
+           digits_of_values},
+          [](const E& e) { return e.large_over_small_modulus.value; },
+          [](const E& e) { return e.large_over_small_modulus.error; })
+      .add_with_error(
+          {"axial_tension_large_over_small", "", "Axial tension of large over small cells",
+           "likewise; the model has one tension for all sizes", "", 0, digits_of_values},
+          [](const E& e) { return e.large_over_small_tension.value; },
+          [](const E& e) { return e.large_over_small_tension.error; })
       .add({"effective_modulus_share_percent", "%", "Events with an effective modulus",
             "of the events that have one under that axial tension, or lie on a known side of the table"},
            [](const E& e) { return e.events_kPa.all() > 0 ? 100 * e.events_kPa.share() : no_value; })

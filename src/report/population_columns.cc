@@ -1,9 +1,11 @@
 #include "report/population_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "case/joined.h"
+#include "report/effective_columns.h"
 #include "report/quantity_columns.h"
 
 namespace rheocyte {
@@ -43,6 +45,44 @@ void add_events(ColumnList<RecordingReport>& list) {
   list.add_count("events_without_numbers", &R::without_numbers);
   add_events_beyond(list);
   list.add({.name = "binned", .sentence = "whether events were counted in bins", .is_flag = true}, &R::is_binned);
+}
+
+/// What another model would need.
+void add_observed(const PopulationReport& report, ColumnList<RecordingReport>& list) {
+  using R = RecordingReport;
+  constexpr std::array<std::pair<SeenMeasure, const char*>, 9> measures{{{SeenMeasure::area_um2, "um2"},
+                                                                         {SeenMeasure::deformation, ""},
+                                                                         {SeenMeasure::inertia_ratio, ""},
+                                                                         {SeenMeasure::mode_2, ""},
+                                                                         {SeenMeasure::mode_3, ""},
+                                                                         {SeenMeasure::mode_4, ""},
+                                                                         {SeenMeasure::mode_5, ""},
+                                                                         {SeenMeasure::mode_6, ""},
+                                                                         {SeenMeasure::mode_7, ""}}};
+  constexpr std::array names{"area",   "deformation", "inertia_ratio", "mode_2", "mode_3",
+                             "mode_4", "mode_5",      "mode_6",        "mode_7"};
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    const auto [measure, unit] = measures[k];
+    const auto m = std::size_t(measure);
+    if (std::ranges::none_of(report.recordings, [m](const R& r) { return std::isfinite(r.observed[m].value); }))
+      continue;
+    const std::string suffix = *unit == 0 ? "" : std::string("_") + unit;
+    list.add_with_error(
+        {.name = std::string(names[k]) + "_median" + suffix,
+         .unit = unit,
+         .sentence = "as measured, median of the events"},
+        [m](const R& r) { return r.observed[m].value; }, [m](const R& r) { return r.observed[m].error; });
+  }
+  list.add_with_error(
+      {.name = "young_modulus_deformation_median_kPa",
+       .unit = "kPa",
+       .sentence = "E as of a solid, from area and deformation, as `rheocyte extract` has it"},
+      [](const R& r) { return r.by_deformation_kPa.value; }, [](const R& r) { return r.by_deformation_kPa.error; });
+  list.add_with_error(
+      {.name = "young_modulus_elongated_median_kPa",
+       .unit = "kPa",
+       .sentence = "E as of a solid under an axial tension, as `rheocyte extract` has it"},
+      [](const R& r) { return r.elongated_kPa.value; }, [](const R& r) { return r.elongated_kPa.error; });
 }
 
 void add_measuring_conditions(ColumnList<RecordingReport>& list) {
@@ -169,11 +209,14 @@ Columns<RecordingReport> recording_columns(const PopulationReport& report) {
   add_radius(list);
   if (report.model == "solid")
     list.add_of(solid_columns(), [](const R& r) { return r.failure.empty() ? &r.fitted : nullptr; });
+  else if (report.model == "effective")
+    list.add_of(effective_columns(), [](const R& r) { return r.effective ? &*r.effective : nullptr; });
   else
     list.add_of(combined_columns(),
                 [](const R& r) { return r.failure.empty() && r.combined ? &*r.combined : nullptr; });
   add_outcome(list);
   add_events(list);
+  add_observed(report, list);
   add_measuring_conditions(list);
   return std::move(list).columns();
 }

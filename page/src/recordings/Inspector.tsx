@@ -56,10 +56,10 @@ function useDetail(chosen: Choice | null): Found {
   return { inspected: shown, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
-function Value({ value, error }: { value: number; error: number | null | undefined }) {
+function Value({ value, error, name = 'E' }: { value: number; error: number | null | undefined; name?: string }) {
   return (
     <>
-      <span class="symbol">E</span> {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
+      <span class="symbol">{name}</span> {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
     </>
   );
 }
@@ -69,7 +69,21 @@ function Headline({ detail, by }: { detail: EventDetail; by: string }) {
   const value = detail.young_modulus_kPa;
   const elongated = detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null;
   const error = detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error;
+  const effective = detail.features.effective_modulus_kPa;
   const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.young_modulus_kPa_error} />;
+  if (by === 'effective')
+    return (
+      <>
+        <p class={typeof effective === 'number' ? 'large' : 'large none'}>
+          {typeof effective === 'number' ? <Value value={effective} error={null} name="E_eff" /> : 'No effective modulus: the cell lies outside the table'}
+        </p>
+        {typeof effective === 'number' && <p class="soft">effective modulus under the axial tension of the recording</p>}
+        <p class="soft from-deformation">
+          {fromDeformation}
+          {value !== null && ' from deformation, as of a solid'}
+        </p>
+      </>
+    );
   if (by !== 'elongated' && by !== 'none')
     return (
       <>

@@ -6,7 +6,7 @@ import { significant } from '../../draw/numbers';
 import { Progress } from '../../shell/Progress';
 import { useStore } from '../../shell/store';
 import { items, recordings } from '../model';
-import { cellModel, computePopulation, paired, population, populationRuns, stopPopulation, type CellModel } from '../population_runs';
+import { cellModel, computePopulation, doses, doseUnit, paired, population, populationRuns, stopPopulation, type CellModel } from '../population_runs';
 import { dotsOf, intervalOf, sessionsOf, type Interval } from '../condition_dots';
 import { RecommendedMean } from '../Conditions';
 import { recommendedOf } from '../recommended';
@@ -153,12 +153,60 @@ function Start() {
       <label class="row" title="Effective modulus: real cells, by area, deformation and inertia ratio. Bulk and cortex: by the whole outline">
         Cells
         <select value={model} onChange={({ currentTarget }) => cellModel.set(currentTarget.value as CellModel)}>
+          <option value="">By their shapes</option>
           <option value="solid">Solids</option>
           <option value="effective">Effective modulus</option>
           <option value="cortex">Bulk and cortex</option>
         </select>
       </label>
     </div>
+  );
+}
+
+/** A dose of each condition, for the trend and the EC50. */
+function Doses() {
+  const conditions = sessionsOf(recordings(useStore(items)));
+  const given = useStore(doses);
+  const unit = useStore(doseUnit);
+  if (conditions.length < 2) return null;
+  return (
+    <details class="doses">
+      <summary>Doses of the conditions</summary>
+      {conditions.map(({ name }, k) => (
+        <label key={name} class="row">
+          <span>{name}</span>
+          <input
+            class="number"
+            type="number"
+            min={0}
+            step="any"
+            placeholder={k === 0 ? '0' : ''}
+            value={given[name] ?? ''}
+            onChange={({ currentTarget }) => doses.set({ ...doses.get(), [name]: currentTarget.value })}
+          />
+        </label>
+      ))}
+      <label class="row">
+        <span>Unit</span>
+        <input type="text" maxLength={20} value={unit} placeholder="ug/ml" onChange={({ currentTarget }) => doseUnit.set(currentTarget.value)} />
+      </label>
+    </details>
+  );
+}
+
+/** Trend and EC50 of the quantity that is shown. */
+function DoseResponse({ found, quantity }: { found: Population; quantity: string }) {
+  const row = found.dose_responses?.find((each) => each.quantity === quantity);
+  if (!row) return null;
+  const unit = found.doses?.unit ? ` ${found.doses.unit}` : '';
+  const ec50 = intervalOf(row, 'ec50');
+  const trend = intervalOf(row, 'ratio_per_decade');
+  return (
+    <p class="dose-response">
+      {trend && `Ratio ${significant(trend.value, 3)} for ten times the dose (${interval(trend)})`}
+      {row.p_of_trend !== null && `, p ${significant(row.p_of_trend, 2)}`}
+      {ec50 && `; EC50 ${significant(ec50.value, 2)}${unit} (${interval(ec50)})`}
+    </p>
   );
 }
 
@@ -176,13 +224,14 @@ function Populations() {
           <Plot found={found.record} quantity={quantity} room={width} />
         ) : (
           <p class="soft">
-            Name conditions and replicates in the list; the distributions of radius and modulus of the cells of each recording are then
-            fitted to areas and asymmetries, and conditions are compared by their recordings.
+            Name conditions and replicates in the list. Each recording then has the modulus of its cells: that of solids, or the effective
+            modulus of cells that are longer than the flow makes them. Conditions are compared by their recordings.
           </p>
         )}
       </div>
       <div class="distribution-notes">
         <Start />
+        <Doses />
         {quantities.length > 1 && (
           <label class="row">
             Shown
@@ -196,6 +245,7 @@ function Populations() {
           </label>
         )}
         {found && quantity && <Table found={found.record} quantity={quantity} />}
+        {found && quantity && <DoseResponse found={found.record} quantity={quantity.quantity} />}
         {found?.record.comparisons.some(({ p }) => p === null) && (
           <p class="soft">* By sampling alone: a single recording does not tell how recordings scatter.</p>
         )}
