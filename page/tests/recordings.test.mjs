@@ -291,6 +291,14 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
     await page.getByRole('button', { name: 'Fit populations' }).click();
     await page.getByRole('img', { name: 'Median E_eff of each recording, by condition' }).waitFor();
     assert.match(await page.locator('.populations code').textContent(), /--model effective/);
+    await page.getByRole('combobox', { name: 'Cells' }).selectOption('By their shapes');
+    await page.getByText('Doses of the conditions').click();
+    await page.locator('.doses').getByLabel('drug').fill('0.1');
+    await page.locator('.doses').getByLabel('Unit').fill('mM');
+    await page.getByRole('button', { name: 'Fit populations' }).click();
+    await page.locator('.populations code', { hasText: '--dose drug=0.1' }).waitFor({ state: 'attached' });
+    assert.match(await page.locator('.populations code').textContent(), /--dose drug=0.1 --dose-unit mM/);
+    assert.match(await page.locator('.populations .remarks').textContent(), /--model effective, because the cells of 2 of 2 recordings/);
   }, undefined, files);
   await rm(folder, { recursive: true });
 });
