@@ -3,6 +3,7 @@
 // recording could not be used, 3 if one has no event with a modulus, 128 + signal.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/cli.h"
@@ -13,6 +14,7 @@
 #include "extract/extract_summary.h"
 #include "extract/shape_words.h"
 #include "report/extract_recording.h"
+#include "report/methods_text.h"
 #include "report/summary_table.h"
 #include "shelf/modulus_tables.h"
 #include "store/standard_error.h"
@@ -49,6 +51,7 @@ class ExtractJob {
     const bool has_place =
         !options_.batch.folder.empty() || std::filesystem::is_directory(summary_file_.parent_path(), error);
     if (!lines_.empty() && has_place) add_to_summary(summary_file_, lines_);
+    if (!was_stopped(exit_code) && !options_.batch.quiet) print_methods();
     if (!was_stopped(exit_code) && !options_.batch.quiet && has_place)
       print(fmt::format("{} of {} recordings, see {}\n", done_, tasks_.size(), summary_file_.string()));
     return exit_code;
@@ -81,6 +84,13 @@ class ExtractJob {
   }
 
  private:
+  /// By the first recording.
+  void print_methods() const {
+    const auto first = std::ranges::find(lines_, tasks_.front().recording, &SummaryLine::recording);
+    if (first == lines_.end() || !first->error.empty()) return;
+    if (const auto text = methods_text(first->summary); !text.empty()) print(fmt::format("methods: {}\n", text));
+  }
+
   const ExtractOptions& options_;
   std::vector<RecordingTask> tasks_;
   std::filesystem::path summary_file_;

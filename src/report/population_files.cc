@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/json_guard.h"
+#include "report/methods_text.h"
 #include "report/population_columns.h"
 #include "report/rows_json.h"
 #include "report/rows_text.h"
@@ -65,6 +66,7 @@ ordered_json population_record(const PopulationReport& report) {
     record["dose_responses"] = rows_json(dose_columns(), report.dose_responses);
   }
   record["tensions"] = report.tensions;
+  record["methods"] = methods_text(report);
   record["warnings"] = report.warnings;
   return record;
 }

@@ -7,6 +7,7 @@
 
 #include "case/joined.h"
 #include "case/user_error.h"
+#include "report/methods_text.h"
 
 namespace rheocyte {
 namespace {
@@ -166,6 +167,7 @@ std::vector<std::string> population_lines(const PopulationReport& report) {
   if (const auto checks = checks_line(report); !checks.empty()) lines.push_back(checks);
   if (std::ranges::any_of(report.recordings, [](const auto& r) { return r.failure.empty(); }))
     lines.push_back("systematic errors, which do not enter ratios: " + report.systematic_errors);
+  if (const auto methods = methods_text(report); !methods.empty()) lines.push_back("methods: " + methods);
   return lines;
 }
 

@@ -4,6 +4,7 @@
 
 #include "report/distribution_columns.h"
 #include "report/effective_columns.h"
+#include "report/methods_text.h"
 #include "report/recommended_columns.h"
 #include "report/verdict_columns.h"
 
@@ -56,7 +57,9 @@ void add_words(ColumnList<S>& list) {
            [](const S& s) { return s.shapes.trend_text(); })
       .add({"beside_axis_text", "", "Cells beside the axis in a sentence",
             "whether elongation is stored in cells beside the axis, and whether they approach it"},
-           beside_axis_text);
+           beside_axis_text)
+      .add({"methods_text", "", "Paragraph for a methods section", "how the recommended modulus was obtained"},
+           [](const S& s) { return methods_text(s); });
 }
 
 void add_settings(ColumnList<S>& list) {
