@@ -119,7 +119,7 @@ class Command(WithFakeProgram):
             rest = process.stderr.read()
             process.stderr.close()
             self.assertEqual(process.wait(), code)
-            self.assertIn("the same command goes on from there", rest.splitlines()[-1])
+            self.assertIn("the same command continues from there", rest.splitlines()[-1])
             self.assertFalse((self.out / "figure-5.png").exists())
         time.sleep(0.6)  # a program that was left running would write now
         # The log does not tell: a program may be stopped between its line there and its result.

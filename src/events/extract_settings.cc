@@ -37,7 +37,7 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
   const auto& [key, unit, way_out, range] = wanted;
   const auto stored = recording.metadata().number(key);
   if (stored && *stored > 0 && !range.contains(*stored))
-    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
+    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is it in another unit? Give it with {}.", key,
                                               *stored, range_text(range, unit), way_out));
   if (stored && *stored > 0) return *stored;
   refuse_path(recording.file(), fmt::format("{}; give it with {}.", what_is_stored(recording, key), way_out));

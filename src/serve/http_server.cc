@@ -32,8 +32,8 @@ std::size_t most_connections() {
   const std::string host = one_line(place.host, 80);
   if (error == boost::asio::error::access_denied)
     throw UserError(
-        fmt::format("rheocyte view: port {} is for the administrator of this machine alone; give one above "
-                    "1023 with --port, or none for any that is free.",
+        fmt::format("rheocyte view: port {} is reserved for the administrator of this machine; give one above 1023 "
+                    "with --port, or none for any that is free.",
                     place.port));
   if (error == boost::asio::error::address_in_use)
     throw UserError(

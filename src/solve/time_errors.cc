@@ -226,7 +226,7 @@ std::string told(const OtherRun& mesh, const OtherRuns& others, double deformati
     greatest = std::max(greatest, here);
     change = std::max(change, std::abs(here - mesh.way.outputs[i].state.shape.deformation));
   }
-  if (greatest > 0) text += fmt::format(", and none by more than {:.2g} % of the greatest", 100 * change / greatest);
+  if (greatest > 0) text += fmt::format(", and none by more than {:.2g} % of the maximum", 100 * change / greatest);
   return text + fmt::format(". Steps with time.accuracy = {:.2g} change it by {:.2g} %.", others.steps.accuracy,
                             100 * std::abs(others.steps.deformation() - deformation) / deformation);
 }

@@ -168,7 +168,7 @@ void HostedWork::ask(const std::string& request) const { send_request(socket_, r
 void HostedWork::read(const Take& take, const Watch& watch) {
   constexpr int look_ms = 50;
   for (;;) {
-    if (watch.stop()) throw UserError("Nobody waits any more for what was asked.");
+    if (watch.stop()) throw UserError("The request was cancelled.");
     const Packet packet = receive_packet(socket_, look_ms);
     switch (packet.word) {
       case Word::none: break;

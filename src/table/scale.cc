@@ -148,7 +148,7 @@ TableText scaled(const TableText& table, const ChannelFlow& to, std::string_view
   for (const auto& doubt : doubts_of_scaling(table, to)) comments.push_back(fmt::format("Not exact: {}.", doubt));
   if (const double effect = inertia_effect(table, to); effect > 0 && effect <= negligible_effect)
     comments.push_back(fmt::format("Inertia changes the deformation by about {:.1g} %.", 100 * effect));
-  comments.emplace_back("What the table said before:");
+  comments.emplace_back("Header of the original table:");
   comments.emplace_back();
   result.comments.insert(result.comments.begin(), comments.begin(), comments.end());
   scale_metadata(result.metadata, from, to);
