@@ -24,7 +24,7 @@ struct Quantity {
 
 Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
 
-// Of what is no positive number; with a decimal comma, for example, the text tells what is wrong.
+// Of what is no positive number; with a decimal comma, for example, the text states what is wrong.
 std::string what_is_stored(const Recording& recording, const std::string& key) {
   if (!recording.metadata().has(key)) return key + " is missing";
   const auto text = recording.metadata().text(key);

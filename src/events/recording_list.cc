@@ -139,7 +139,7 @@ fs::path summary_file(const BatchOptions& options) {
     const fs::path place = place_of_input(input);
     while (std::ranges::mismatch(common, place).in1 != common.end()) common = common.parent_path();
   }
-  // Nobody's results belong at the root of the file system.
+  // No one's results belong at the root of the file system.
   return (common == common.root_path() ? place_of_input(options.inputs.front()) : common) / name;
 }
 

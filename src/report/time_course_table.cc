@@ -171,7 +171,7 @@ std::string CourseTable::elongation_text(const CourseReport& report) const {
   const PopulationEstimate& p = report.population;
   const Physical in = physical(table_, rows_.front().flow);
   for (const CourseRow& row : report.rows) take(row.drawn_out);
-  // Of cells that were seen once the population tells what they are.
+  // Of cells that were seen once the population determines what they are.
   if (report.rows.empty())
     for (const Row& row : rows_)
       take(TimeCourse(table_).drawn_out(

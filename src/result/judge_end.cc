@@ -17,7 +17,7 @@ namespace rheocyte {
 namespace {
 
 constexpr double fraction_of_time = 0.1, fraction_of_distance = 0.1;
-/// Of the accuracy that is wanted of the run, what the stationary shape that it is compared with may be off.
+/// Of the accuracy that is requested of the run, what the stationary shape that it is compared with may be off.
 constexpr double fraction_of_stationary = 0.1;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
@@ -177,7 +177,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 
-/// Whether the run to compare with failed and nothing else tells the error.
+/// Whether the run to compare with failed and nothing else gives the error.
 bool is_error_unknown(const StationaryState& state) {
   const bool has_failed = state.comparison != Status::not_started && state.comparison != Status::converged &&
                           state.comparison != Status::stopped;

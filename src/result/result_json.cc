@@ -23,7 +23,7 @@ constexpr const char* compiler = "Clang " __clang_version__;
 constexpr const char* compiler = "GCC " __VERSION__;
 #endif
 
-// A modulus on the way to the wanted one; null if there is none or the cell is rigid.
+// A modulus on the way to the requested one; null if there is none or the cell is rigid.
 Json over(const std::optional<double>& modulus, double compliance) {
   return modulus && compliance > 0 ? Json(*modulus / compliance) : Json(nullptr);
 }

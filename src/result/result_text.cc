@@ -97,7 +97,7 @@ std::string effective_modulus_line(const Result& result) {
               "of a solid that a small tension elongates as much");
 }
 
-/// What the estimated error is relative to, and which one is wanted.
+/// What the estimated error is relative to, and which one is requested.
 std::string error_remark(const Result& result) {
   const Case& input = result.input;
   const bool in_time = input.time.scheme != TimeScheme::stationary;

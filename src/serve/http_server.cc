@@ -112,7 +112,7 @@ class HttpServer::Inside {
     std::make_shared<Connection>(std::move(socket), shared_)->begin();
   }
 
-  /// Whoever was refused gives its place, or else whoever has been silent for longest.
+  /// A refused connection gives its place, or else the one that has been silent for longest.
   bool make_room() {
     const auto found = std::ranges::find_if(shared_.open, &Connection::is_dispensable);
     if (found == shared_.open.end()) return false;

@@ -62,7 +62,7 @@ std::string ways_out(const LastState& last) {
          "(cell.cortex.law = \"neo-hookean\").";
 }
 
-/// In wanted moduli; near 1 as many digits as tell the difference.
+/// In requested moduli; near 1 as many digits as tell the difference.
 std::string in_wanted_moduli(double ratio) {
   constexpr double told_by_four_digits = 1e-3;
   if (ratio == 1) return "the requested moduli";
@@ -85,7 +85,7 @@ std::string unstable_surface(const std::string& where, const LastState& last) {
   return loss_of_stability(last) + ": the smooth branch ends at " + where + "; " + ways_out(last);
 }
 
-/// Of a cell with the wanted moduli, of which there was a state on some mesh.
+/// Of a cell with the requested moduli, of which there was a state on some mesh.
 std::string explanation_of_wanted(Status status, const LastState& last) {
   const auto& weak = last.weak_point;
   if (status == Status::surface_unstable && last.stability_margin < 0)

@@ -25,7 +25,7 @@ struct StateNumbers {
   double drift_velocity = no_value;            ///< of a cell off the axis, along its offset, in U
   double spin = no_value;                      ///< rate at which its material turns, in U/R
   double offset = no_value;                    ///< of its barycentre, in R
-  double offset_error = no_value;              ///< of the place of equilibrium, likewise
+  double offset_error = no_value;              ///< of the place of equilibrium; as above
   OutlineTilt tilt;                            ///< of its outline in the plane of the offset
   double flow_rate = no_value;                 ///< mean velocity in U
   double volume_flow = no_value;               ///< in R^2 U

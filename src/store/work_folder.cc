@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* mark_file = "begun-by.txt";
 constexpr const char* spec_file = "spec.toml";
-constexpr const char* beginning = "begun-by.claim";  ///< whoever holds it writes spec and mark
+constexpr const char* beginning = "begun-by.claim";  ///< its holder writes spec and mark
 
 std::string words_for(int number) { return std::generic_category().message(number); }
 

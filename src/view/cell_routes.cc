@@ -52,7 +52,7 @@ Result stationary(const Case& c) {
   return {c, scales_of(c), problem_of(c), {}};
 }
 
-/// Refused (409) if a later request of the stream has come, (503) if nobody waits any more.
+/// Refused (409) if a later request of the stream has come, (503) if no one waits any more.
 void solve(SolverThreads& threads, const Request& request,
            const std::function<void(Session&, const std::atomic<bool>&)>& work) {
   const JobEnd end = threads.run({request.asked("stream"), request, work});
