@@ -5,6 +5,7 @@ import re
 WORDS = re.compile(r"\b(?:told|tells?|anew|likewise|nobody|whoever)\b", re.IGNORECASE)
 # Codes and columns in files, which keep their names.
 CODES = re.compile(r"\bnot-told-apart\b")
+CODE_SPAN = re.compile(r"`[^`\n]*`")
 ROOMS = ("src", "python", "page")
 C_TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<raw>R"([^(\s]*)\(.*?\)\3")|(?P<text>"(?:\\.|[^"\\\n])*")"""
                      r"""|(?<!\w)'(?:\\.|[^'\\\n])+'""", re.S)
@@ -33,6 +34,8 @@ def texts(name, text):
             return ((line, re.sub(r"\$\{[^{}]*\}", "", part)) for line, part in _tokens(PAGE_TOKEN, text))
         if name.suffix == ".py":
             return _python_texts(text)
+    if name.suffix == ".md" and (name.parts[0] == "docs" or name.parts in (("README.md",), ("CHANGELOG.md",))):
+        return [(1, CODE_SPAN.sub("", text))]
     return ()
 
 

@@ -205,6 +205,10 @@ class Words(TreeTest):
         self.reject({"python/rheocyte/a.py": '"""A.\n\nWhoever\n"""\n'}, ("python/rheocyte/a.py", 3), '"Whoever"')
         self.reject({"page/src/a.tsx": "const a = (\n  <p>It is told.</p>\n);\n"}, ("page/src/a.tsx", 2), '"told"')
 
+    def test_words_of_no_sentence_fail_in_documents(self):
+        self.reject({"docs/figures/a.md": "A `tell`.\nNobody.\n"}, ("docs/figures/a.md", 2), '"Nobody"')
+        self.reject({"CHANGELOG.md": "Told.\n"}, ("CHANGELOG.md", 1), '"Told"')
+
     def test_identifiers_comments_and_codes_pass(self):
         self.accept({"src/fem/a.cc": '// likewise\ntell("not-told-apart");\n', "page/src/a.ts": "tell('it'); // nobody\n"})
         self.accept({"python/rheocyte/a.py": "tell = 1  # told\n", "python/tests/a.py": '"""Told."""\n'})
