@@ -78,7 +78,7 @@ class Command(WithFakeProgram):
         self.assertLess(len(picture), 4e5)
         self.assertIn("[12/12]", first.stderr)
         second = self.call(5, self.out)
-        self.assertEqual((second.returncode, second.stderr), (0, "12 of 12 results are there already\n"))
+        self.assertEqual((second.returncode, second.stderr), (0, "12 of 12 results exist already\n"))
         self.assertEqual(self.solved(), [])
         self.assertEqual((self.out / "figure-5.png").read_bytes(), picture)
         self.assertEqual(len(self.table(5)), 18)
