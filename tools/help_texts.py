@@ -1,4 +1,4 @@
-"""The program's own help, taken apart: for man pages, completions and the pages of the documentation site."""
+"""The program's own help, taken apart: for man pages, completions, the pages of the documentation site and reviews."""
 import re
 import subprocess
 
@@ -46,6 +46,15 @@ def entries(lines):
 def commands(program):
     """Pairs of a command and its sentence."""
     return entries(sections(help_of(program))["Subcommands"])
+
+
+def all_help(program, *command):
+    """{name: help} of the program, its commands and theirs; "analytic-cell" of a command in a command."""
+    text = help_of(program, *command)
+    found = {"-".join(command) or "rheocyte": text}
+    for name, _ in entries(sections(text).get("Subcommands", [])):
+        found |= all_help(program, *command, name)
+    return found
 
 
 def _without_excluded(name, sentence):

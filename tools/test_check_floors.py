@@ -1,10 +1,12 @@
 """Each rule of check_floors on small trees: what breaks it is named with its line, what keeps it passes."""
 import importlib.machinery
 import importlib.util
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 LOADER = importlib.machinery.SourceFileLoader("check_floors", str(Path(__file__).with_name("check_floors")))
 check_floors = importlib.util.module_from_spec(importlib.util.spec_from_loader(LOADER.name, LOADER))
 LOADER.exec_module(check_floors)
@@ -194,6 +196,22 @@ class Labels(TreeTest):
     def test_documents_and_links_that_are_not_there_fail(self):
         self.reject({"docs/a.md": "[b](b.md)\n"}, ("docs/a.md", 1), "there is no docs/b.md")
         self.reject({"src/fem/a.cc": "// docs/b.md\n"}, ("src/fem/a.cc", 1), "there is no docs/b.md")
+
+
+class Words(TreeTest):
+    def test_words_of_no_sentence_fail_in_strings(self):
+        self.reject({"src/fem/a.cc": '\nf("the data tell"\n  " nothing");\n'}, ("src/fem/a.cc", 2), '"tell"')
+        self.reject({"src/fem/a.cc": 'f(R"(a\nmade anew)");\n'}, ("src/fem/a.cc", 2), '"anew"')
+        self.reject({"python/rheocyte/a.py": '"""A.\n\nWhoever\n"""\n'}, ("python/rheocyte/a.py", 3), '"Whoever"')
+        self.reject({"page/src/a.tsx": "const a = (\n  <p>It is told.</p>\n);\n"}, ("page/src/a.tsx", 2), '"told"')
+
+    def test_words_of_no_sentence_fail_in_documents(self):
+        self.reject({"docs/figures/a.md": "A `tell`.\nNobody.\n"}, ("docs/figures/a.md", 2), '"Nobody"')
+        self.reject({"CHANGELOG.md": "Told.\n"}, ("CHANGELOG.md", 1), '"Told"')
+
+    def test_identifiers_comments_and_codes_pass(self):
+        self.accept({"src/fem/a.cc": '// likewise\ntell("not-told-apart");\n', "page/src/a.ts": "tell('it'); // nobody\n"})
+        self.accept({"python/rheocyte/a.py": "tell = 1  # told\n", "python/tests/a.py": '"""Told."""\n'})
 
 
 if __name__ == "__main__":

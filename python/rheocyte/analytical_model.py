@@ -52,7 +52,7 @@ def analytic(radius_um: float, *, young_modulus_kPa: float | None = None, cortex
     if (young_modulus_kPa is None) == (cortex_modulus_mN_per_m is None):
         raise UserError("give either young_modulus_kPa, for a solid, or cortex_modulus_mN_per_m, for a shell.")
     if young_modulus_kPa is not None and tension_ratio is not None:
-        raise UserError("tension_ratio belongs to a shell; leave it out, or give cortex_modulus_mN_per_m.")
+        raise UserError("tension_ratio is for shells; leave it out, or give cortex_modulus_mN_per_m.")
     radius, rate = positive(radius_um, "radius_um"), positive(flow_rate_ul_s, "flow_rate_ul_s")
     mPas = positive(viscosity_mPas, "viscosity_mPas")
     given = {"young_modulus_kPa": young_modulus_kPa, "cortex_modulus_mN_per_m": cortex_modulus_mN_per_m,

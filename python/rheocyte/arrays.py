@@ -23,7 +23,7 @@ def equally_long(**arrays):
     lengths = {name: array.shape for name, array in arrays.items()}
     for name, shape in lengths.items():
         if len(shape) != 1:
-            raise UserError(f"{name} has the shape {shape}; one number per event is wanted.")
+            raise UserError(f"{name} has the shape {shape}; it must have one number per event.")
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{name} {shape[0]}" for name, shape in lengths.items())
         raise UserError(f"the arrays are not equally long: {told}.")
@@ -33,7 +33,7 @@ def number(value, name):
     """One finite number; a text or True, which numpy would take for one, is none."""
     array = np.empty(0) if isinstance(value, (str, bool, np.bool_)) else numbers(value, name)
     if array.size != 1 or not np.isfinite(array).all():
-        raise UserError(f"{name} is {value!r}; one finite number is wanted.")
+        raise UserError(f"{name} is {value!r}; it must be one finite number.")
     return float(array.reshape(())) if array.ndim else float(array)
 
 

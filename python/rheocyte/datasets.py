@@ -23,7 +23,7 @@ _MASKS_AT_A_TIME = 200
 
 
 class Source:
-    """A recording that can be read by its place; `name` stands for it in what is told."""
+    """A recording that can be read by its place; `name` stands for it in texts."""
 
     def __init__(self, place, name=None, warnings=()):
         self.place, self.name, self.warnings = place, name or place, list(warnings)

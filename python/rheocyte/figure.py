@@ -90,8 +90,8 @@ def main():
     parser.add_argument("number", metavar="N")
     parser.add_argument("folder", metavar="DIR", type=Path)
     parser.add_argument("recordings", metavar="FILE", nargs="*")
-    parser.add_argument("--viscosity-mPas", help="of the liquid, for recordings that do not tell it")
-    parser.add_argument("--temperature-if-missing", help="degC, for recordings that do not tell it")
+    parser.add_argument("--viscosity-mPas", help="viscosity of the liquid (mPa s), for recordings without a known medium")
+    parser.add_argument("--temperature-if-missing", help="temperature (degC), for recordings without one")
     parser.add_argument("--table", default="", help="folder of a combined table of elongated cells")
     parser.add_argument("--program", required=True, help="the program rheocyte that solves")
     arguments = parser.parse_args()
@@ -105,7 +105,7 @@ def main():
         failures = make(number, arguments.folder, arguments.program, arguments.recordings, options,
                         arguments.table)
     except Stopped as stopped:
-        print(f"rheocyte: stopped; what was solved is kept in {arguments.folder}, the same command goes on "
+        print(f"rheocyte: stopped; what was solved is kept in {arguments.folder}, the same command continues "
               "from there.", file=sys.stderr)
         sys.exit(128 + stopped.number)
     if failures:

@@ -44,7 +44,7 @@ def read_table(path, columns, delimiter=","):
         raise InputError(f"{path} cannot be read: {reason(error)}.") from error
     missing = [name for name in columns if name not in names]
     if missing:
-        raise InputError(f"{path} has no column \"{missing[0]}\"; wanted are {', '.join(columns)}.")
+        raise InputError(f"{path} has no column \"{missing[0]}\"; it needs {', '.join(columns)}.")
     return rows
 
 
@@ -82,7 +82,7 @@ def check_picture(path):
     except OSError as error:
         raise InputError(f"{path} cannot be read: {reason(error)}.") from error
     if not any(mark in head for mark in MARKS):
-        raise InputError(f"{path} is there and was not drawn by rheocyte; move it away, or give another place.")
+        raise InputError(f"{path} already exists and was not drawn by rheocyte; move it away, or give another place.")
 
 
 def check_figure(stem):
@@ -162,7 +162,7 @@ def check_table(path, columns):
     if Path(path).exists():
         with open(path, newline="", encoding="utf-8", errors="replace") as file:
             if next(csv.reader(file), None) != columns:
-                raise InputError(f"{path} is there and was not written by rheocyte; move it away, or give another place.")
+                raise InputError(f"{path} already exists and was not written by rheocyte; move it away, or give another place.")
 
 
 def current_umask():

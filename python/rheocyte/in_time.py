@@ -62,7 +62,7 @@ class Evolution:
     evolution.result     the last state, a Result; waits for the end
     evolution.stop()     ends the computation; so does Ctrl-C in a loop, and what was computed stays
 
-    A numerical failure ends the iteration; `result.status` and `result.message` tell the reason, and `check()` raises
+    A numerical failure ends the iteration; `result.status` and `result.message` give the reason, and `check()` raises
     it as NoStateError.
     """
 

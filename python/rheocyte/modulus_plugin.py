@@ -364,7 +364,7 @@ def moduli_of(dataset):
 
 
 def can_compute(dataset):
-    """False, or what the moduli depend on: dclab computes them anew when that changes."""
+    """False, or what the moduli depend on: dclab computes them again when that changes."""
     try:
         return repr(settings_of(dataset))
     except Exception:  # from a plugin it would make all features of all recordings unusable

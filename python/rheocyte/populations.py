@@ -29,7 +29,7 @@ class Population:
     medians of area, deformation and inertia ratio.
     With model="cortex" each quantity that is reported has these columns, with its unit: stiffness (E + E2D/r0),
     effective_modulus (bulk, cortex and tension together), young_modulus, cortex_modulus, cortex_tension, axial_tension (of
-    the liquid); NaN where a recording does not tell it.
+    the liquid); NaN if it is unknown.
     record          the dictionary of population.json
     """
 

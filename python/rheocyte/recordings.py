@@ -84,12 +84,12 @@ def time_course(recordings, table=None, contraction_um=None, *, progress=None, *
     young_modulus_kPa and viscosity_Pas with the ends of their 90 % intervals, chi_squared, section_factor (c3 over that in
     the tube), section_error (relative, of E, within its interval), status, event_numbers. attrs: settings, population
     (sentences; of at least 50 cells, also of those that were seen once). UserError says why single
-    images, or pictures at one place, do not tell a viscosity.
+    images, or pictures at one place, do not determine a viscosity.
     """
     import pandas
 
     if contraction_um is None:
-        raise UserError("contraction_um is missing: pos_x of the end of the contraction, from which the cells come.")
+        raise UserError("contraction_um is missing: pos_x (um) of the end of the contraction through which the cells enter the channel.")
     several = _several(recordings)
     if not several:
         raise UserError("recordings is empty; give one recording or several of one population.")
@@ -111,7 +111,7 @@ def time_course(recordings, table=None, contraction_um=None, *, progress=None, *
 
 @with_settings(native.PopulationOptions)
 def population(conditions, *, progress=None, **settings):
-    """Mechanics of the cells of recordings, and whether conditions differ, as `rheocyte population` tells.
+    """Mechanics of the cells of recordings, and whether conditions differ, as by `rheocyte population`.
 
     conditions      dictionary of conditions and their recordings (lists of what extract takes); the first one is that with
                     which others are compared
@@ -183,7 +183,7 @@ def synth(spec, file, *, replace=False, progress=None, **overrides):
     if place.suffix != ".rtdc":
         raise UserError(f"{place}: recordings have names that end in .rtdc.")
     if place.exists() and not (truth(replace, "replace") and place.is_file()):
-        raise UserError(f"{place}: is there already; give another name, or replace=True for a file.")
+        raise UserError(f"{place}: already exists; give another name, or replace=True for a file.")
     with progress_bar(progress) as tell:
         return native.synth(text, name, settings, str(place), tell)
 
@@ -208,7 +208,7 @@ def features(masks, pixel_size_um):
     except (TypeError, ValueError, RuntimeError) as error:
         raise UserError(f"masks is not an array: {error}.") from error
     if array.dtype.kind not in "biu" or array.ndim not in (2, 3) or 0 in array.shape[-2:]:
-        raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; wanted are booleans or whole "
+        raise UserError(f"masks has the type {array.dtype} and the shape {array.shape}; it must be booleans or whole "
                         "numbers (events, rows, columns).")
     size = positive(pixel_size_um, "pixel_size_um")
     as_bytes = array.view(np.uint8) if array.dtype.itemsize == 1 else (array != 0).view(np.uint8)

@@ -75,5 +75,5 @@ def failure_note(result):
             ("E2D", "mN/m", "cortex_modulus_reached_mN_per_m", "cortex", "modulus_mN_per_m")):
         drawn, wanted = find(result, reached), find(result, "case", "cell", *asked)
         if drawn and wanted and abs(drawn / wanted - 1) > 1e-6:
-            lines.append(f"drawn is {name} = {drawn:.4g} {unit}, asked for was {wanted:.4g} {unit}")
+            lines.append(f"drawn is {name} = {drawn:.4g} {unit}, requested was {wanted:.4g} {unit}")
     return lines + textwrap.wrap(str(result.get("message") or ""), 64, max_lines=3, placeholder=" …")

@@ -144,7 +144,7 @@ def _polygons(polygons, name):
 def _corners(corners, name):
     pairs = numbers(corners, name)
     if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise UserError(f"{name}: the corners have the shape {pairs.shape}; wanted are pairs of numbers.")
+        raise UserError(f"{name}: the corners have the shape {pairs.shape}; they must be pairs of numbers.")
     return ":".join(f"{x!r},{y!r}" for x, y in pairs.tolist())
 
 
@@ -154,8 +154,8 @@ _SEVERAL = {"numbers": lambda values, name: np.atleast_1d(numbers(values, name))
 
 # Settings that are more than a number, a word or a flag here.
 _FORMS = {"table": lambda value, _: place_of_table(value), "min": _limits, "max": _limits, "polygon": _polygons, "dose": _doses}
-_SAID = {"min": 'least values of features: min={"area_um": 40}', "max": 'greatest values: max={"area_ratio": 1.05}',
-         "dose": 'doses of conditions: dose={"drug": 0.05}; the first condition has dose 0 if no other is given',
+_SAID = {"min": 'minimum values of features: min={"area_um": 40}', "max": 'maximum values: max={"area_ratio": 1.05}',
+         "dose": 'doses of conditions: dose={"drug": 0.05}; the first condition has dose 0 by default',
          "polygon": 'corners in the plane of two features: {("area_um", "deform"): [(40, 0.01), (90, 0.01), (90, 0.1)]}; edges '
                     'are straight over the logarithm of "log:area_um"; or the name of a file of polygon filters of DCscope or '
                     "dclab (.poly), or a list of such names"}

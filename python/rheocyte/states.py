@@ -36,7 +36,7 @@ _DEFAULT_MEMORY_MB = 256
 
 def solve(case: _Source = None, *, check: bool = False, progress: Callable[[dict[str, float]], object] | None = None,
           gradient: str | Iterable[str] = (), threads: int | None = None, **overrides: Any) -> Result:
-    """The stationary shape of a cell, from the sphere to the wanted stiffness by itself.
+    """The stationary shape of a cell, from the sphere to the requested stiffness by itself.
 
     case        a Case, the path of a case file, a dictionary or None; keywords replace its keys as for Case
     check       raise NoStateError where the state does not exist or was not reached; else the Result says so in
@@ -198,8 +198,8 @@ class Result:
     def surface_gradient(self, key: str) -> dict[str, NDArray[np.float64]]:
         """Derivatives of the columns of `surface` by a key of the case: dictionary of arrays (n,) by their names.
 
-        Each in the unit of the column over that of the key, at the same material points of the cell: x_um and r_um tell how
-        the contour moves. UserError for a key that was not among `gradient` of solve.
+        Each in the unit of the column over that of the key, at the same material points of the cell: x_um and r_um
+        describe how the contour moves. UserError for a key that was not among `gradient` of solve.
         """
         if key not in self.gradient:
             raise UserError(f"surface_gradient: there is no gradient by {key!r}; give it to solve(..., gradient=[...]).")

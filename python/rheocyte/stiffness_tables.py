@@ -80,7 +80,7 @@ def dclab_plugin(file: str | PathLike[str]) -> Path:
 
 @functools.cache
 def _passing_folder():
-    """For files that nobody wants to keep: it goes with the interpreter."""
+    """For temporary files: it is removed with the interpreter."""
     folder = tempfile.TemporaryDirectory(prefix="rheocyte-")
     atexit.register(folder.cleanup)
     return folder.name
@@ -311,7 +311,7 @@ class Table:
 
 
 def _liquid(mPas, medium, temperature_C, model):
-    """Name and values of what tells the viscosity, one or one per event, and the buffer if they are its temperatures."""
+    """Name and values of the source of the viscosity, one or one per event, and the buffer if they are its temperatures."""
     if mPas is not None:
         if medium is not None or temperature_C is not None:
             raise UserError("viscosity_mPas and medium exclude each other; give one of them.")

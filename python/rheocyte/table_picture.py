@@ -63,11 +63,11 @@ def read_folder(folder):
     folder = Path(folder)
     files = sorted(folder.glob("table_*.csv"))
     if len(files) != 1:
-        raise InputError(f"{folder} holds {len(files)} files table_*.csv; wanted is one, from rheocyte table.")
+        raise InputError(f"{folder} contains {len(files)} files table_*.csv; it needs one, from rheocyte table.")
     rows = read_table(files[0], COLUMNS)
     stiffness = next((name for name in UNITS if rows and name in rows[0]), None)
     if stiffness is None:
-        raise InputError(f"{files[0]} holds no rows with a stiffness; wanted is a column {' or '.join(UNITS)}.")
+        raise InputError(f"{files[0]} contains no rows with a stiffness; it needs a column {' or '.join(UNITS)}.")
     column = {name: np.array([number(row, name, files[0]) for row in rows]) for name in COLUMNS + [stiffness]}
     path = folder / "end-of-branch.csv"
     ends = read_table(path, ["radius_um", "area_um2", "deformation", "status"])

@@ -28,7 +28,7 @@ class Fields:
 
 
 def read_vtu(path, wanted):
-    """The grid and the wanted fields at its nodes; InputError names what is missing or damaged."""
+    """The grid and the requested fields at its nodes; InputError names what is missing or damaged."""
     try:
         return read_grid(Path(path).read_bytes(), wanted)
     except OSError as error:

@@ -83,7 +83,7 @@ def table(arguments):
     file = Path(arguments[0])
     folder = Path(arguments[arguments.index("-o") + 1])
     if os.environ.get("FAKE_REFUSES", "\0") in file.stem:
-        print("rheocyte: holds a table that was begun as another", file=sys.stderr)
+        print("rheocyte: contains a table that was begun as another", file=sys.stderr)
         return 2
     print("12 of 12 radii, 3 s elapsed", file=sys.stderr)
     with open(os.environ["FAKE_LOG"], "a") as log:

@@ -78,7 +78,7 @@ class Command(WithFakeProgram):
         self.assertLess(len(picture), 4e5)
         self.assertIn("[12/12]", first.stderr)
         second = self.call(5, self.out)
-        self.assertEqual((second.returncode, second.stderr), (0, "12 of 12 results are there already\n"))
+        self.assertEqual((second.returncode, second.stderr), (0, "12 of 12 results exist already\n"))
         self.assertEqual(self.solved(), [])
         self.assertEqual((self.out / "figure-5.png").read_bytes(), picture)
         self.assertEqual(len(self.table(5)), 18)
@@ -119,7 +119,7 @@ class Command(WithFakeProgram):
             rest = process.stderr.read()
             process.stderr.close()
             self.assertEqual(process.wait(), code)
-            self.assertIn("the same command goes on from there", rest.splitlines()[-1])
+            self.assertIn("the same command continues from there", rest.splitlines()[-1])
             self.assertFalse((self.out / "figure-5.png").exists())
         time.sleep(0.6)  # a program that was left running would write now
         # The log does not tell: a program may be stopped between its line there and its result.

@@ -101,7 +101,7 @@ class Figures(WithFakeProgram):
         self.assertLess((self.out / "figure-8.png").stat().st_size, 4e5)
         refused = self.call(8, self.out, FAKE_REFUSES="neo-hookean-solid")
         self.assertEqual(refused.returncode, 2)
-        self.assertEqual(refused.stderr, "rheocyte: holds a table that was begun as another\n")
+        self.assertEqual(refused.stderr, "rheocyte: contains a table that was begun as another\n")
 
     def test_damaged_tables_are_refused(self):
         path = self.folder / "table.csv"

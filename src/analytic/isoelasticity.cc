@@ -12,8 +12,8 @@ IsoelasticityPoint point(const CellInTube& cell, double strain) {
   return {cell.sphere.lambda, shape.area, shape.deformation};
 }
 
-// The point of a line between two of its points where the deformation has the wanted value; ln d is nearly a straight
-// line of r0.
+// The point of a line between two of its points where the deformation has the requested value; ln d is nearly a
+// straight line of r0.
 IsoelasticityPoint point_at(double deformation, double strain, const IsoelasticityPoint& below,
                             const IsoelasticityPoint& above) {
   const auto at = [&](double radius) { return point(solid_in_tube(radius), strain); };

@@ -6,7 +6,7 @@
 
 namespace rheocyte {
 
-/// Which lines are wanted, and where they have points.
+/// Which lines are requested, and where they have points.
 struct IsoelasticityGrid {
   std::vector<double> radii;              ///< r0 / R, ascending
   std::vector<double> capillary_numbers;  ///< eta Q / (R^3 E), one line for each

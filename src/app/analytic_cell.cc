@@ -42,7 +42,8 @@ std::string AnalyticCell::remark() const {
   const double greatest = is_solid() ? max_solid_deformation : max_shell_deformation;
   if (state.shape.deformation <= greatest && cell.sphere.lambda <= max_ratio_of_agreement) return {};
   return fmt::format(
-      "beyond the model (d up to {}, r0 up to {} tube radii), which can be off by over 10 %; see `rheocyte solve`",
+      "beyond the range of the model (d up to {}, r0 up to {} tube radii), where errors exceed 10 %; see `rheocyte "
+      "solve`",
       greatest, max_ratio_of_agreement);
 }
 

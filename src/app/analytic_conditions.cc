@@ -33,8 +33,8 @@ void declare_conditions(CLI::App& command, AnalyticConditions& conditions) {
   add("flow.rate_ul_per_s", flow.rate_ul_per_s, standard_rate_ul_per_s);
   add("flow.viscosity_mPas", flow.viscosity_mPas, standard_viscosity_mPas);
   command.add_flag("--square-duct", conditions.square_duct,
-                   "take the velocity on the axis of the square channel, as the published analytical tables do; "
-                   "default: that of the tube, as the tables of simulations do");
+                   "use the velocity on the axis of the square channel, as in the published analytical tables; "
+                   "default: velocity on the axis of the equivalent tube, as in simulated tables");
 }
 
 void complete(AnalyticConditions& conditions) {
@@ -42,7 +42,7 @@ void complete(AnalyticConditions& conditions) {
   if (channel.width_um && channel.radius_um)
     throw UserError("rheocyte: --channel-width-um and --tube-radius-um exclude each other; give one of them.");
   if (channel.radius_um && conditions.square_duct)
-    throw UserError("rheocyte: --square-duct belongs to a square channel; give --channel-width-um.");
+    throw UserError("rheocyte: --square-duct is for square channels; give --channel-width-um.");
   if (!channel.radius_um && !channel.width_um) channel.width_um = standard_width_um;
 }
 

@@ -140,10 +140,9 @@ TextFile text_of(const AnalyticTableInput& input, const std::vector<double>& mod
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const auto& point : lines[i]) table.rows.push_back({point.area * R * R, point.deformation, moduli[i]});
   if (table.rows.empty())
-    throw UserError(
-        fmt::format("rheocyte: all of these cells deform by more than {:g}; give greater moduli or a "
-                    "greater --max-deformation.",
-                    input.max_deformation));
+    throw UserError(fmt::format(
+        "rheocyte: all of these cells deform by more than {:g}; give larger moduli or a larger --max-deformation.",
+        input.max_deformation));
   return {{}, to_text(table), int(table.rows.size())};
 }
 

@@ -117,11 +117,11 @@ class CheckpointSearch {
   FoundCheckpoint latest(const fs::path& wanted) && {
     if (!latest_ && failure_) throw *failure_;
     if (!latest_)
-      refuse_path(wanted, "holds no checkpoint; --continue takes the folder of a result with a [time] section.");
+      refuse_path(wanted, "contains no checkpoint; --continue takes the folder of a result with a [time] section.");
     const HistoryRow& reached = latest_->checkpoint.record.rows.back();
     const auto refuse_beyond = [&](double at, const std::optional<double>& end, const char* unit) {
       if (end && at > *end * (1 + 1e-8))
-        refuse_path(wanted, fmt::format("has reached {:g} {} already, time.end_{} = {:g} lies before it.", at, unit,
+        refuse_path(wanted, fmt::format("has already reached {:g} {}; time.end_{} = {:g} must be larger.", at, unit,
                                         unit, *end));
     };
     refuse_beyond(reached.t_us, case_.time.end_us, "us");
@@ -160,15 +160,15 @@ Checkpoint decode_checkpoint(const std::string& content, const Case& c, const fs
     refuse_path(file, "is not a checkpoint of rheocyte, or only the beginning of one.");
   const std::string_view body = std::string_view(content).substr(0, content.size() - sizeof sum);
   std::memcpy(&sum, content.data() + body.size(), sizeof sum);
-  if (sum != fnv1a(body)) refuse_path(file, "is damaged, its checksum does not fit; start anew without --continue.");
+  if (sum != fnv1a(body)) refuse_path(file, "is damaged: its checksum is wrong; start again without --continue.");
   if (body.substr(magic.size(), version_length) != padded(version, version_length))
-    refuse_path(file, "is of another version of rheocyte; start anew without --continue.");
+    refuse_path(file, "was written by another version of rheocyte; start again without --continue.");
   if (body.substr(magic.size() + version_length, hash.size()) != hash)
     refuse_path(file,
-                "is of another case; only time.end_us or time.end_um may differ from the case that it continues.");
+                "belongs to another case; only time.end_us or time.end_um may differ from the case that it continues.");
   auto checkpoint = from_bytes<Checkpoint>(body.substr(head));
   if (!checkpoint || checkpoint->state.levels.empty() || checkpoint->record.rows.empty())
-    refuse_path(file, "is damaged, its content is incomplete; start anew without --continue.");
+    refuse_path(file, "is damaged: its content is incomplete; start again without --continue.");
   return std::move(*checkpoint);
 }
 
@@ -188,7 +188,7 @@ Checkpoint read_checkpoint(const fs::path& folder, const Case& c) {
 TimeStart read_start(const fs::path& folder, const Case& c) {
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file))
-    refuse_path(folder, "holds no result of rheocyte; --start takes the folder of a result in time.");
+    refuse_path(folder, "contains no result of rheocyte; --start takes the folder of a result in time.");
   const Case other = read_case(file);
   if (other.time.scheme == TimeScheme::stationary)
     refuse_path(folder,
@@ -196,17 +196,16 @@ TimeStart read_start(const fs::path& folder, const Case& c) {
   const bool implicit = c.time.scheme == TimeScheme::monolithic && other.time.scheme == TimeScheme::monolithic;
   const bool straight = c.channel.profile.x_um.empty() && other.channel.profile.x_um.empty();
   if (!implicit || !straight)
-    refuse_path(folder,
-                "cannot be a start: that is for time.scheme = \"monolithic\" in straight channels, here and there.");
+    refuse_path(
+        folder,
+        "cannot be a start: --start requires time.scheme = \"monolithic\" and a straight channel in both cases.");
   if (!have_the_same_section(c, other) || c.cell.radius_um != other.cell.radius_um ||
       c.time.degree.value_or(other.time.degree.value_or(0)) != other.time.degree.value_or(c.time.degree.value_or(0)) ||
       c.cell.viscoelasticity != other.cell.viscoelasticity || c.flow.drive != other.flow.drive ||
       c.channel.length_um != other.channel.length_um || c.cell.offset_um != other.cell.offset_um)
     refuse_path(folder,
-                "is of another kind; cell.radius_um, cell.offset_um, the channel, flow.drive, cell.viscoelasticity and "
-                "time.degree must be "
-                "those of "
-                "the start.");
+                "differs too much from this case; cell.radius_um, cell.offset_um, the channel, flow.drive, "
+                "cell.viscoelasticity and time.degree must be those of the start.");
   const Scales now = scales_of(c), then = scales_of(other);
   return {read_checkpoint(folder, other).state,
           UnitChange{then.velocity_m_per_s / now.velocity_m_per_s, then.stress_Pa / now.stress_Pa}};

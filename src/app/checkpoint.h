@@ -31,7 +31,7 @@ std::string checkpoint_file(int slot);
 std::string encode_checkpoint(const Checkpoint&, const Case&);
 Checkpoint decode_checkpoint(const std::string& content, const Case&, const std::filesystem::path& file);
 
-/// A checkpoint and the folder in which it lies, which nobody else can remove meanwhile.
+/// A checkpoint and the folder in which it lies, which no one else can remove meanwhile.
 struct FoundCheckpoint {
   Checkpoint checkpoint;
   std::filesystem::path folder;

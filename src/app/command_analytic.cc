@@ -43,7 +43,7 @@ void check_stiffness(const CellOptions& options) {
   if (solid == options.input.cortex_modulus_mN_per_m.has_value())
     throw UserError("rheocyte: give either --young-modulus-kPa, for a solid, or --cortex-modulus-mN-m, for a shell.");
   if (solid && options.tension_ratio)
-    throw UserError("rheocyte: --tension-ratio belongs to a shell; leave it out, or give --cortex-modulus-mN-m.");
+    throw UserError("rheocyte: --tension-ratio is for shells; leave it out, or give --cortex-modulus-mN-m.");
 }
 
 void run_cell(CellOptions& options) {
@@ -69,8 +69,8 @@ void add_cell_command(CLI::App& analytic) {
   add("cell.cortex.tension_ratio", options->tension_ratio)->default_str(fmt::format("{:g}", default_tension_ratio));
   declare_conditions(*command, input.conditions);
   add("channel.radius_um", input.conditions.input.channel.radius_um)
-      ->description("radius of the tube, instead of the channel's width");
-  command->add_option("-o,--output", options->contour, "file for the contour, x_um,r_um from front to rear")
+      ->description("radius of the tube, in place of the channel width");
+  command->add_option("-o,--output", options->contour, "file for the contour (columns x_um,r_um; from front to rear)")
       ->type_name("FILE.csv");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_flag("--force", options->force, "replace a file that rheocyte did not write");
@@ -90,27 +90,27 @@ void declare_table_options(CLI::App& command, AnalyticTableOptions& options) {
   declare_conditions(command, input.conditions);
   const auto& radius = case_key("cell.radius_um");
   add_key_option(command, radius, "--least-radius-um",
-                 "radius of the smallest cell; default: 0.1 of the tube's, 0.0547 channel widths",
+                 "radius of the smallest cell; default: 0.1 tube radii (0.0547 channel widths)",
                  [&](double value) { input.min_radius_um = value; });
   add_key_option(command, radius, "--greatest-radius-um",
-                 "radius of the largest cell; default: 0.8 of the tube's, 0.4376 channel widths",
+                 "radius of the largest cell; default: 0.8 tube radii (0.4376 channel widths)",
                  [&](double value) { input.max_radius_um = value; });
-  command.add_option("--radii", input.radii, "number of radii, by equal steps of their square")
+  command.add_option("--radii", input.radii, "number of radii, equally spaced in radius^2")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
   command
-      .add_option("--max-deformation,--greatest-deformation", input.max_deformation,
-                  "where a line of equal stiffness ends")
+      .add_option("--max-deformation,--greatest-deformation", input.max_deformation, "maximum deformation of the cells")
       ->capture_default_str();
   command
       .add_option("--identifier", input.identifier,
-                  "name under which dclab knows it; default: LE-2D-ANA-26, with -duct")
+                  "identifier of the table in dclab; default: LE-2D-ANA-26, with --square-duct LE-2D-ANA-26-duct")
       ->check(CLI::Validator(
           [](const std::string& name) {
             const bool plain =
                 name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") ==
                 std::string::npos;
-            return plain && name.size() <= 80 ? std::string() : std::string("takes letters, digits, - _ and . only");
+            return plain && name.size() <= 80 ? std::string()
+                                              : std::string("may contain only letters, digits, -, _ and .");
           },
           "NAME"));
   command.add_option("-o,--output", options.folder, "folder for the file")->type_name("DIR")->required();
@@ -124,13 +124,13 @@ void add_table_command(CLI::App& analytic) {
   declare_table_options(*command, *options);
   const auto& modulus = case_key("cell.bulk.young_modulus_kPa");
   add_key_option(*command, modulus, "--least-modulus-kPa",
-                 "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, else in proportion "
-                 "to viscosity x flow rate / width^3",
+                 "Young's modulus of the softest cell; default: 0.5 kPa under standard conditions, otherwise "
+                 "proportional to viscosity x flow rate / width^3",
                  [&](double value) { input.min_modulus_kPa = value; });
   add_key_option(*command, modulus, "--greatest-modulus-kPa",
                  "Young's modulus of the stiffest cell; default: 30 kPa under standard conditions",
                  [&](double value) { input.max_modulus_kPa = value; });
-  command->add_option("--moduli", input.moduli, "number of moduli, by equal steps of their inverse square root")
+  command->add_option("--moduli", input.moduli, "number of moduli, equally spaced in modulus^(-1/2)")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
   command->callback([options] { run_table(*options, analytic_table); });
@@ -142,7 +142,7 @@ void add_lines_command(CLI::App& analytic) {
   declare_table_options(*command, *options);
   command
       ->add_option("--moduli-kPa", options->input.levels_kPa,
-                   "Young's modulus of each line; default: eleven, as in the published lines")
+                   "Young's moduli of the lines (kPa); default: the eleven values of the published lines")
       ->delimiter(',')
       ->type_name("E1,E2,...")
       ->expected(1, 200);

@@ -103,6 +103,8 @@ class ExtractJob {
 
 void add_extract_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("extract", "Young's moduli of the cells in recordings (.rtdc)");
+  command->footer(
+      "For example: rheocyte extract cells.rtdc -o moduli; rheocyte extract -r recordings --medium CellCarrier");
   auto options = std::make_shared<ExtractOptions>();
   declare_extract_options(*command, *options, [options, &exit_code] {
     watch_signals(SecondSignal::waits);

@@ -60,7 +60,8 @@ class FeaturesJob {
 
 void add_features_command(CLI::App& app, int& exit_code) {
   auto* command =
-      app.add_subcommand("features", "features of the shape of the cells in recordings (.rtdc) from contours or masks");
+      app.add_subcommand("features", "shape features of the cells in recordings (.rtdc), from contours or masks");
+  command->footer("For example: rheocyte features cells.rtdc -o features");
   auto options = std::make_shared<FeaturesOptions>();
   declare_batch_options(*command, options->batch);
   declare_jobs(*command, options->batch);

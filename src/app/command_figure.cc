@@ -44,28 +44,33 @@ int become_python(const FigureOptions& options) {
 }  // namespace
 
 void add_figure_command(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("figure", "remake a figure of Mokbel et al. 2017, solving what is missing for it");
+  auto* command = app.add_subcommand("figure", "reproduce a figure of Mokbel et al. 2017; missing cases are solved");
+  command->footer("For example: rheocyte figure 3 -o figures");
   auto options = std::make_shared<FigureOptions>();
   command
       ->add_option("N", options->number,
-                   "number of the figure in the paper; entry: a cell enters a narrow channel; square: what the tube "
-                   "does to cells in a square channel; transit: cells in the planar funnel of a chip, from above and "
-                   "from the side; off-axis: cells off the axis in height; real-cells: whether the cells of recordings "
-                   "have the shapes of the model")
+                   "number of the figure in the paper; entry: a cell entering a narrow channel; square: effect of the "
+                   "equivalent tube on cells in a square channel; transit: cells in the planar funnel of a chip, from "
+                   "above and from the side; off-axis: cells off the axis in height; real-cells: shapes of recorded "
+                   "cells compared with those of the model")
       ->required();
   command->add_option("FILES", options->recordings, "recordings (.rtdc), for real-cells");
-  command->add_option("--viscosity-mPas", options->viscosity_mPas, "of the liquid, for recordings that do not tell it")
+  command
+      ->add_option("--viscosity-mPas", options->viscosity_mPas,
+                   "viscosity of the liquid (mPa s), for recordings without a known medium")
       ->type_name("VALUE");
-  command->add_option("--temperature-if-missing", options->temperature_if_missing, "degC, as for extract")
+  command
+      ->add_option("--temperature-if-missing", options->temperature_if_missing,
+                   "temperature (degC) for recordings without one, as for extract")
       ->type_name("VALUE");
   command
       ->add_option("--table", options->table,
-                   "combined table, for real-cells: median outlines are drawn over those of its cells that fit them; "
-                   "HC-2D-EL-26 comes with the program")
+                   "table of cells with bulk and cortex for real-cells, e.g. HC-2D-EL-26: its best-fitting cells are "
+                   "drawn with the median outlines")
       ->type_name("TABLE");
   command
       ->add_option("-o,--output", options->folder,
-                   "folder for figure-N.png, .svg and .csv; results in its folders cases and tables are used again")
+                   "folder for figure-N.png, .svg and .csv; results in its subfolders cases and tables are reused")
       ->type_name("DIR")
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = become_python(*options); });

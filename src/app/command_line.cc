@@ -39,7 +39,7 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
 int with_output(int exit_code) {
   const int failed = finish_output();
   if (failed == 0) return exit_code;
-  tell(fmt::format("rheocyte: standard output cannot be written ({}); what goes into files is complete.",
+  tell(fmt::format("rheocyte: standard output cannot be written ({}); files are complete.",
                    std::generic_category().message(failed)));
   return exit_code == exit_converged ? exit_user_error : exit_code;
 }

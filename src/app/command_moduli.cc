@@ -88,15 +88,16 @@ class ModuliJob {
 void add_moduli_command(CLI::App& app, int& exit_code) {
   auto* command =
       app.add_subcommand("moduli", "bulk and cortex moduli of the cells in recordings (.rtdc) from their contours");
+  command->footer("For example: rheocyte moduli cells.rtdc -o moduli");
   auto options = std::make_shared<ModuliOptions>();
   declare_batch_options(*command, options->batch);
   declare_jobs(*command, options->batch,
-               "recordings that are read at once; threads that share one recording where there are fewer");
+               "number of recordings read in parallel; threads for one recording if there are fewer recordings");
   command
       ->add_option(
           "--table", options->table,
-          "combined table: a folder of `rheocyte table` (examples/tables/combined.toml), its combined_*.cbor, or "
-          "the name of one that comes with the program; default: HC-2D-EL-26, of elongated cells")
+          "table of cells with bulk and cortex: folder of `rheocyte table` (examples/tables/combined.toml), file "
+          "combined_*.cbor, or identifier of a table of the program; default: HC-2D-EL-26 (elongated cells)")
       ->type_name("TABLE");
   declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {

@@ -33,7 +33,7 @@ int redraw(const std::filesystem::path& folder) {
 }  // namespace
 
 void add_picture_command(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("picture", "draw picture.png and picture.svg of a result again");
+  auto* command = app.add_subcommand("picture", "redraw picture.png and picture.svg of a result");
   auto folder = std::make_shared<std::filesystem::path>();
   command->add_option("DIR", *folder, "folder of a result")->required();
   command->callback([folder, &exit_code] { exit_code = redraw(*folder); });

@@ -31,11 +31,13 @@ void run(const PlanOptions& options, const std::filesystem::path& file) {
 
 void add_plan_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
-      "plan", "channel, flow rate, medium and numbers of cells and sessions that show a difference between conditions");
+      "plan",
+      "channel, flow rate, medium and numbers of cells and sessions that detect a difference between conditions");
+  command->footer("For example: rheocyte plan --radius-um 6.5 --young-modulus-kPa 2");
   auto options = std::make_shared<PlanOptions>();
   auto file = std::make_shared<std::filesystem::path>();
   declare_settings(*command, settings_of(*options));
-  command->add_option("-o,--output", *file, "file for the table of the channels; without it it is printed")
+  command->add_option("-o,--output", *file, "file for the table of channels; default: the table is printed")
       ->type_name("FILE.tsv");
   command->callback([options, file] { run(*options, *file); });
 }

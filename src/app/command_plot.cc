@@ -43,7 +43,7 @@ class HandOver {
     const fs::path place = fs::temp_directory_path(error);
     if (!error) folder_ = new_scratch_folder(place / "rheocyte-plot");
     if (error || folder_.failed)
-      throw UserError("rheocyte: there is no place for temporary files; TMPDIR names a folder for them.");
+      throw UserError("rheocyte: there is no folder for temporary files; name one in TMPDIR.");
   }
   ~HandOver() { remove_scratch(folder_); }
   HandOver(const HandOver&) = delete;
@@ -75,7 +75,7 @@ class Plot {
     if (const std::string why = lines_.why_none(); !why.empty() && !options_.quiet) tell(why);
     const auto text = json_line({{"panels", panels}, {"gates", gates_in_picture(options_)}});
     if (write_part(folder_.path() / "plot.json", text))
-      throw UserError("rheocyte: the disk for temporary files is full; TMPDIR names another folder.");
+      throw UserError("rheocyte: the disk for temporary files is full; name another folder in TMPDIR.");
     return draw();
   }
 
@@ -84,7 +84,7 @@ class Plot {
     Isolation limits;
     limits.patience_s = options_.measuring.patience_s.value_or(default_patience_s);
     const auto work = [&](const TellProgress& on_progress) {
-      FileWriter file(events, "is the disk full? TMPDIR names another folder.");
+      FileWriter file(events, "is the disk full? Name another folder in TMPDIR.");
       const auto write = [&](std::span<const float> pairs) {
         file.append({reinterpret_cast<const char*>(pairs.data()), pairs.size_bytes()});
       };
@@ -139,8 +139,9 @@ class Plot {
 }  // namespace
 
 void add_plot_command(CLI::App& app, int& exit_code) {
-  auto* command =
-      app.add_subcommand("plot", "area against deformation of recordings (.rtdc), with isoelasticity lines");
+  auto* command = app.add_subcommand(
+      "plot", "deformation against area of the cells in recordings (.rtdc), with isoelasticity lines");
+  command->footer("For example: rheocyte plot cells.rtdc --levels 0.5,1,2");
   auto options = std::make_shared<PlotOptions>();
   declare_plot_options(*command, *options, [options, &exit_code] {
     watch_signals();

@@ -75,20 +75,22 @@ int run(const PopulationCall& call) {
 
 void add_population_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
-      "population", "Young's modulus of the cells of recordings (.rtdc) as populations, and differences of conditions");
+      "population",
+      "Young's modulus of populations of cells in recordings (.rtdc), and differences between conditions");
+  command->footer("For example: rheocyte population --condition control=A.rtdc,B.rtdc --condition drug=C.rtdc,D.rtdc");
   auto call = std::make_shared<PopulationCall>();
   PopulationOptions* const options = &call->options;
   options->folder = "population";
   command
       ->add_option("SPEC", call->spec,
-                   "the conditions and any of these options in a file: a section [conditions] with NAME = [FILE, ...], "
-                   "recordings seen from there, and options by their names without -- and with _ for -")
+                   "file with the conditions and any of these options: a section [conditions] with NAME = [FILE, ...], "
+                   "paths relative to this file, and options by their names without -- and with _ for -")
       ->type_name("SPEC.toml");
   command
       ->add_option("--condition", options->conditions,
-                   "a condition and its recordings; the first one is that with which others are compared")
+                   "a condition and its recordings; the first condition is the control")
       ->type_name("NAME=FILE,FILE,...");
-  command->add_option("-o,--output", options->folder, "folder of the results; default: population")->type_name("DIR");
+  command->add_option("-o,--output", options->folder, "folder for the results; default: population")->type_name("DIR");
   command->add_flag("--quiet", options->quiet, "print neither progress nor results");
   command->add_flag("--no-picture", call->no_picture, "no pictures");
   declare_settings(*command, settings_of(*options));

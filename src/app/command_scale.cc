@@ -68,8 +68,8 @@ TableText rescaled(const ScaleOptions& options, const TableText& table, const st
   const auto to = wanted_flow(options, table);
   const auto doubts = doubts_of_scaling(table, to);
   if (!doubts.empty() && !options.inexact)
-    throw UserError(fmt::format("{}: the scaling would not be exact: {}; --inexact scales nevertheless.", name,
-                                joined(doubts, "; ")));
+    throw UserError(
+        fmt::format("{}: the scaling would not be exact: {}; --inexact scales anyway.", name, joined(doubts, "; ")));
   TableText result = scaled(table, to, version);
   rename(result, to, options.identifier);
   return result;
@@ -91,28 +91,32 @@ void run(const ScaleOptions& options) {
 std::string check_identifier(const std::string& name) {
   const bool plain =
       std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; });
-  return plain && !name.empty() && name.size() <= 80 ? "" : "takes letters, digits, - _ and . only";
+  return plain && !name.empty() && name.size() <= 80 ? "" : "may contain only letters, digits, -, _ and .";
 }
 
 }  // namespace
 
 void add_scale_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("scale", "look-up table for another channel, flow rate or viscosity");
+  command->footer("For example: rheocyte scale HE-3D-26 --channel-width-um 30 -o scaled.txt");
   auto options = std::make_shared<ScaleOptions>();
   command
       ->add_option(
           "TABLE", options->table,
           "look-up table or isoelasticity lines in dclab's format, or a table of rheocyte: its name or grid_*.cbor")
       ->required();
-  const std::string otherwise = "that of the table";
+  const std::string otherwise = "the value of the table";
   add_key_option(*command, case_key("channel.width_um"), options->channel_width_um, otherwise);
   add_key_option(*command, case_key("flow.rate_ul_per_s"), options->flow_rate_ul_s, otherwise);
   add_key_option(*command, case_key("flow.viscosity_mPas"), options->viscosity_mPas, otherwise);
-  command->add_flag("--lines", options->lines, "isoelasticity lines of a table of rheocyte in place of its rows");
-  command->add_option("--identifier", options->identifier, "name of the new table; default: from the old one")
+  command->add_flag("--lines", options->lines, "write isoelasticity lines of a table of rheocyte in place of its rows");
+  command
+      ->add_option("--identifier", options->identifier,
+                   "identifier of the new table; default: derived from the original table")
       ->check(CLI::Validator(check_identifier, "NAME"));
   command->add_option("-o,--output", options->output, "file for the new table")->type_name("FILE.txt")->required();
-  command->add_flag("--inexact", options->inexact, "scale even where that is not exact; the header says why");
+  command->add_flag("--inexact", options->inexact,
+                    "scale even if the scaling is not exact; the header gives the reason");
   command->add_flag("--force", options->force, "replace a file that rheocyte did not write");
   command->callback([options] { run(*options); });
 }

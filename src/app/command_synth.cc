@@ -44,7 +44,7 @@ void check_output(const SynthOptions& options) {
   if (fs::is_directory(options.output, error))
     throw UserError(fmt::format("{}: is a folder; give the name of a file with -o.", name));
   if (!options.force && fs::exists(options.output, error))
-    throw UserError(fmt::format("{}: is there already; give another name with -o, or --force to replace it.", name));
+    throw UserError(fmt::format("{}: already exists; give another name with -o, or --force to replace it.", name));
   const auto parent = fs::absolute(options.output, error).parent_path();
   if (!fs::is_directory(parent, error)) refuse_path(parent, "there is no such folder.");
 }
@@ -90,6 +90,7 @@ int run(const SynthOptions& options) {
 
 void add_synth_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("synth", "a virtual recording (.rtdc) of a population of cells");
+  command->footer("For example: rheocyte synth examples/recordings/virtual-cells.toml -o virtual.rtdc");
   auto options = std::make_shared<SynthOptions>();
   command
       ->add_option("SPEC", options->spec,
@@ -99,8 +100,8 @@ void add_synth_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->settings, "replace a key of the spec; may be repeated")
       ->type_name("key=value")
       ->allow_extra_args(false);
-  command->add_flag("--force", options->force, "replace a file that is there");
-  command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  command->add_flag("--force", options->force, "replace an existing file");
+  command->add_flag("--quiet", options->quiet, "print only errors");
   command->callback([options, &exit_code] {
     watch_signals(SecondSignal::waits);
     exit_code = run(*options);

@@ -59,7 +59,7 @@ bool compute(const SharedWork& work, const char* pieces, const OwnWork& own) {
   const bool is_complete = work_on(work, own.jobs, observer, stop_wanted());
   progress.finish();
   if (!is_complete)
-    tell(fmt::format("rheocyte: stopped after {} of {} {}; the same command goes on from here.", work.done(),
+    tell(fmt::format("rheocyte: stopped after {} of {} {}; the same command continues from here.", work.done(),
                      work.pieces(), pieces));
   return is_complete;
 }
@@ -90,7 +90,7 @@ int make_dynamic_table(const TableOptions& options, const std::string& text) {
   if (!options.quiet)
     print(
         fmt::format("dynamic table {}: {} cells at {} places in {:.0f} s of computation; at {} cells between them c3 "
-                    "is off by at most {:.2f} %, the deformation by {:.2f} % of its greatest value  folder {}\n",
+                    "is off by at most {:.2f} %, the deformation by {:.2f} % of its maximum  folder {}\n",
                     spec.identifier, nodes(spec), spec.places, seconds, errors.cells, 100 * errors.mode_3,
                     100 * errors.deformation, options.folder.string()));
   return exit_converged;
@@ -117,7 +117,8 @@ int make_table(const TableOptions& options) {
 }  // namespace
 
 void add_table_command(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("table", "compute a whole look-up table; goes on where it was interrupted");
+  auto* command = app.add_subcommand("table", "compute a look-up table; an interrupted computation is continued");
+  command->footer("For example: rheocyte table examples/tables/first-table.toml -o first-table");
   auto options = std::make_shared<TableOptions>();
   command
       ->add_option("SPEC", options->spec,
@@ -127,13 +128,18 @@ void add_table_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->settings, "replace a key of the spec; may be repeated")
       ->type_name("key=value")
       ->allow_extra_args(false);
-  command->add_option("--levels", options->levels, "stiffnesses of the lines, comma-separated; default: 11 that fit")
+  command
+      ->add_option(
+          "--levels", options->levels,
+          "stiffnesses of the isoelasticity lines (kPa; of shells mN/m), comma-separated; default: 11 within the table")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_flag("--no-picture", options->no_picture, "no pictures");
-  command->add_option("-j,--jobs", options->jobs, "threads; default: all processors, of a rank those that it is given")
+  command
+      ->add_option("-j,--jobs", options->jobs,
+                   "number of threads; default: all processors, or those assigned to an MPI rank")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--quiet", options->quiet, "no progress, no summary");
+  command->add_flag("--quiet", options->quiet, "print neither progress nor summary");
   command->callback([options, &exit_code] { exit_code = make_table(*options); });
 }
 

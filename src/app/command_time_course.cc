@@ -66,22 +66,23 @@ int run(const TimeCourseOptions& options) {
 
 void add_time_course_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
-      "time-course", "Young's modulus and viscosity of cells that recordings (.rtdc) see at several places");
+      "time-course", "Young's modulus and viscosity of cells recorded (.rtdc) at several places along the channel");
+  command->footer("For example: rheocyte time-course cells.rtdc --contraction-um 0 -o course.tsv");
   auto options = std::make_shared<TimeCourseOptions>();
   command->add_option("FILES", options->batch.inputs, "recordings (.rtdc) of one population; folders with -r")
       ->required();
   command
       ->add_option("--table", options->table,
-                   "dynamic table: a folder of `rheocyte table`, or its dynamic_*.cbor; default: HE-chip-26, of a "
-                   "square channel behind a funnel of 45 degrees")
+                   "dynamic table: folder of `rheocyte table` or file dynamic_*.cbor; default: HE-chip-26 (square "
+                   "channel downstream of a 45-degree funnel)")
       ->type_name("TABLE");
   command
       ->add_option("--contraction-um", options->contraction_um,
-                   "pos_x of the end of the contraction, from which the cells come; one for all recordings, or one "
-                   "each, comma-separated")
+                   "pos_x (um) of the end of the contraction through which the cells enter the channel; one value for "
+                   "all recordings, or one for each, comma-separated")
       ->delimiter(',')
       ->required();
-  command->add_option("-o,--output", options->file, "table of the cells and the population")
+  command->add_option("-o,--output", options->file, "file for the table of the cells and the population")
       ->type_name("FILE.tsv")
       ->required();
   command->add_flag("-r,--recursive", options->batch.recursive, "search the given folders for recordings");

@@ -48,7 +48,7 @@ struct SettingOption {
 
 void declare_batch_options(CLI::App& command, BatchOptions& options) {
   command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
-  command.add_option("-o,--output", options.folder, "folder for the results; without it they go beside each recording")
+  command.add_option("-o,--output", options.folder, "folder for the results; default: the folder of each recording")
       ->type_name("DIR");
   command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");
   command.add_flag("--quiet", options.quiet, "print neither progress nor results");
@@ -56,8 +56,7 @@ void declare_batch_options(CLI::App& command, BatchOptions& options) {
 
 void declare_jobs(CLI::App& command, BatchOptions& options, const std::string& meaning) {
   command
-      .add_option("-j,--jobs", options.jobs,
-                  meaning + "; default: as many as there are processors. Results do not depend on it")
+      .add_option("-j,--jobs", options.jobs, meaning + "; default: number of processors. Results do not depend on it")
       ->check(CLI::Range(1, 1024));
 }
 
@@ -72,7 +71,7 @@ void declare_extract_options(CLI::App& command, ExtractOptions& options, std::fu
   declare_batch_options(command, options.batch);
   declare_jobs(command, options.batch);
   declare_settings(command, settings_of(options));
-  command.add_flag("--no-tsv", options.no_tsv, "do not write a table with one line per event");
+  command.add_flag("--no-tsv", options.no_tsv, "do not write the table of events (.tsv)");
   command.callback([&options, run = std::move(run)] {
     check_options(options);
     run();

@@ -16,7 +16,7 @@ void declare_batch_options(CLI::App& command, BatchOptions& options);
 
 /// Declares --jobs, of commands whose recordings have results of their own.
 void declare_jobs(CLI::App& command, BatchOptions& options,
-                  const std::string& meaning = "recordings that are read at once");
+                  const std::string& meaning = "number of recordings read in parallel");
 
 /// Declares an option for each setting. UserError during parsing if a value is not a good one.
 void declare_settings(CLI::App& command, const Settings& settings);

@@ -46,7 +46,7 @@ int report_result(const Result& result, const SolveOptions& options, const nlohm
   print_result(result, options, json_text(numbers) + "\n");
   const auto& outcome = result.state.outcome;
   if (outcome.status != Status::stopped && stop_wanted())
-    tell("rheocyte: a signal came before all was done: the error of the numbers, or pictures, may be missing.");
+    tell("rheocyte: interrupted by a signal: error estimates or pictures may be missing.");
   if (outcome.status != Status::converged)
     tell(fmt::format("rheocyte: {}: {}", name(outcome.status), one_line(outcome.message, 800)));
   return exit_code_of(outcome);

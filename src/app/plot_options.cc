@@ -71,20 +71,22 @@ void declare_plot_options(CLI::App& command, PlotOptions& options, std::function
   command.add_option("FILES", options.inputs, "recordings (.rtdc), one panel each")->required();
   command
       .add_option("-o,--output", options.output,
-                  "name of the pictures; NAME.png and NAME.svg are written; default: beside the first recording")
+                  "name of the pictures NAME.png and NAME.svg; default: name of the first recording with _rheocyte, in "
+                  "its folder")
       ->type_name("NAME");
   declare_settings(command, table_settings(options.table, options.section));
-  command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of the table's own")
+  command.add_option("--lines", options.lines, "isoelasticity lines in dclab's format, in place of those of the table")
       ->type_name("FILE");
-  command.add_option("--x", options.x, "feature on the axis to the right; default: area_um")->type_name("FEATURE");
-  command.add_option("--y", options.y, "feature on the axis upwards; default: deform")->type_name("FEATURE");
+  command.add_option("--x", options.x, "feature on the horizontal axis; default: area_um")->type_name("FEATURE");
+  command.add_option("--y", options.y, "feature on the vertical axis; default: deform")->type_name("FEATURE");
   command.add_flag("--shapes", options.shapes,
-                   "measured against expected inertia ratio: whether the cells have the shapes of the model");
-  command.add_flag("--no-lines", options.no_lines, "draw no lines, not even those of the program's own table");
-  command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the table's lines, e.g. 0.5,1,2")->delimiter(',');
+                   "plot measured against expected inertia ratio: do the cells have the shapes of the model?");
+  command.add_flag("--no-lines", options.no_lines, "draw no isoelasticity lines");
+  command.add_option("--levels", options.levels_kPa, "moduli (kPa) of the isoelasticity lines, e.g. 0.5,1,2")
+      ->delimiter(',');
   declare_settings(command, settings_of(options.measuring));
-  command.add_flag("--no-pixelation", options.no_pixelation, "draw the lines as they are without pixels");
-  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("--no-pixelation", options.no_pixelation, "draw the lines without the correction for pixelation");
+  command.add_flag("--quiet", options.quiet, "print only errors");
   command.callback([&options, run = std::move(run)] {
     options.inputs = without_companions_of_others(options.inputs);
     if (options.shapes) choose_shapes(options);

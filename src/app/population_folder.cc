@@ -71,7 +71,7 @@ void PopulationFolder::check(const fs::path& place) const {
   for (const fs::path& recording : recordings_)
     if (fs::equivalent(companion, recording, error))
       refuse_path(companion,
-                  "is a recording of this call, which its results would replace; name another folder with -o.");
+                  "is one of the given recordings, which the results would replace; name another folder with -o.");
   check_replaceable(fs::path(place) += ".tsv", mark_of_population_events, Foreign::keep);
   check_companion(command, companion);
 }
@@ -105,7 +105,7 @@ void PopulationFolder::add_events(const RecordingReport& recording, const Popula
                       return write_population_companion(scratch, recording, report_progress);
                     });
   if (!missing.empty())
-    tell(fmt::format("{}: uses so many of userdef0 to userdef9 itself that its companion lacks: {}.",
+    tell(fmt::format("{}: already uses so many of userdef0 to userdef9 that its companion lacks: {}.",
                      one_line(recording.recording.string(), 200), missing));
 }
 

@@ -165,8 +165,8 @@ class RecordingBatch {
 /// any result. The job says by
 ///   files(task)                                   which files are made, with publish(); here, UserError
 ///   work(task, files, report_progress) -> Result    what is read and written; in a process of its own, UserError
-///   take(task, result) -> bool                    what is told of the result; false: it has no modulus
-///   fail(task, sentence)                          what else is done about a failure, which is told already
+///   take(task, result) -> bool                    what is reported of the result; false: it has no modulus
+///   fail(task, sentence)                          what else is done about a failure, which is reported already
 template <class Job>
 int run_batch(std::span<const RecordingTask> tasks, const BatchOptions& options, double patience_s, Job& job) {
   return RecordingBatch<Job>(tasks, options, patience_s, job).run();

@@ -18,12 +18,13 @@ int main(int argc, char** argv) {
     return rheocyte::exit_user_error;
   }
   CLI::App app{"rheocyte: shapes of cells in the channel of real-time deformability cytometry", "rheocyte"};
-  app.set_version_flag("--version", std::string("rheocyte ") + rheocyte::version);
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version", std::string("rheocyte ") + rheocyte::version, "print the version");
   app.require_subcommand(1);
   app.allow_windows_style_options(false);  // "/folder" is a folder
-  app.footer("First steps: rheocyte solve examples/paper-cell.toml -o paper-cell; rheocyte help case");
 
   int exit_code = 0;
   for (auto* add : rheocyte::all_commands) add(app, exit_code);
+  app.footer("First steps: rheocyte solve examples/paper-cell.toml -o paper-cell; rheocyte help case");
   return rheocyte::run_command_line(app, argc, argv, exit_code);
 }

@@ -63,17 +63,17 @@ int solve_case(const SolveOptions& options) {
   }
   const bool is_written = !options.folder.empty();
   if (!is_written && c.time.scheme != TimeScheme::stationary)
-    throw UserError("rheocyte: a case with a [time] section needs a folder for its course; give one with -o.");
+    throw UserError("rheocyte: a case with a [time] section needs a folder for its results; give one with -o.");
   if (is_written) check_result_folder(options.folder);
   watch_signals();
   std::optional<Drawing> drawing;  // loads while the solver runs
   if (is_written && !options.no_picture) drawing.emplace("picture");
   if (c.time.scheme != TimeScheme::stationary) return solve_in_time(c, options, drawing);
   if (!options.start_from.empty())
-    throw UserError("rheocyte: --start is for a case with a [time] section; a stationary one starts by itself.");
+    throw UserError("rheocyte: --start is for a case with a [time] section; a stationary case needs no start.");
   if (!options.continue_from.empty())
     throw UserError(
-        "rheocyte: --continue is for a case with a [time] section; a stationary one has nothing to continue.");
+        "rheocyte: --continue is for a case with a [time] section; a stationary case has nothing to continue.");
 
   const auto progress = options.quiet ? ProgressCallback{} : progress_lines(c);
   const Result result = solve_with_gradients(c, gradients, [&](const Problem& problem, std::span<ProblemLine> lines) {

@@ -49,7 +49,7 @@ class Recorder {
       std::error_code error;
       fs::copy_file(from.folder / file, folder_.scratch() / file, error);
       if (error)
-        throw UserError(fmt::format("{}: cannot be copied ({}); start anew without --continue.",
+        throw UserError(fmt::format("{}: cannot be copied ({}); start again without --continue.",
                                     (from.folder / file).string(), error.message()));
     }
   }
@@ -128,8 +128,8 @@ int solve_in_time(const Case& c, const SolveOptions& options, std::optional<Draw
     start = TimeStart{from->checkpoint.state, {}, from->checkpoint.record.way};
   } else if (!interrupted_results(options.folder).empty()) {
     tell(
-        fmt::format("{0}: a computation for it was interrupted; --continue {0} would go on from its last checkpoint, "
-                    "which is kept until this one is finished.",
+        fmt::format("{0}: an earlier computation was interrupted; --continue {0} would continue from its last "
+                    "checkpoint, which is kept until this computation is finished.",
                     one_line(options.folder.string(), 200)));
   }
   if (!options.start_from.empty()) start = read_start(options.start_from, c);

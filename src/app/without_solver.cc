@@ -16,7 +16,7 @@ void add_refusal(CLI::App& app, const char* name, const char* what) {
   command->prefix_command();
   command->callback([name] {
     throw UserError(
-        fmt::format("rheocyte {}: this rheocyte was built without its solver, for recordings alone; build it with "
+        fmt::format("rheocyte {}: this rheocyte was built without its solver, only for recordings; build it with "
                     "-DRHEOCYTE_SOLVER=ON, or install the whole package.",
                     name));
   });
@@ -25,7 +25,7 @@ void add_refusal(CLI::App& app, const char* name, const char* what) {
 }  // namespace
 
 void add_solve_command(CLI::App& app, int&) { add_refusal(app, "solve", "compute the shape of one cell"); }
-void add_table_command(CLI::App& app, int&) { add_refusal(app, "table", "compute a whole look-up table"); }
+void add_table_command(CLI::App& app, int&) { add_refusal(app, "table", "compute a look-up table"); }
 void add_view_command(CLI::App& app, int&) { add_refusal(app, "view", "show cells and recordings in the browser"); }
 
 std::string result_reference(bool) {

@@ -65,7 +65,7 @@ struct Cell {
   BulkCase bulk;
   CortexCase cortex;
   std::optional<double> viscosity_mPas, density_kg_per_m3;  ///< only in time
-  std::optional<Viscoelasticity> viscoelasticity = {};      ///< likewise
+  std::optional<Viscoelasticity> viscoelasticity = {};      ///< as above
   std::optional<double> branch_modulus_kPa = {};            ///< only of a standard linear solid
   std::vector<double> offset_um = {};                       ///< in a duct: along width and height; empty: centred
   CellPlace place = CellPlace::given;

@@ -97,12 +97,12 @@ std::vector<std::string_view> asked_line_keys(const Case& c, std::span<const std
                                               const std::string& name) {
   if (keys.empty()) return {};
   if (c.time.scheme != TimeScheme::stationary)
-    throw UserError(fmt::format("{}: gradients are those of a stationary case; leave out the section time.", name));
+    throw UserError(fmt::format("{}: gradients exist for stationary cases; leave out the section time.", name));
   if (c.cell.place == CellPlace::equilibrium)
-    throw UserError(fmt::format(
-        "{}: gradients are those of a cell at a given place; give the place that was found as cell.offset_um, and "
-        "cell.place = \"given\".",
-        name));
+    throw UserError(
+        fmt::format("{}: gradients exist for a cell at a given place; give the place that was found as cell.offset_um, "
+                    "and cell.place = \"given\".",
+                    name));
   std::vector<std::string_view> known = line_keys(c);
   if (std::ranges::find(keys, "all") != keys.end()) return known;
   std::vector<std::string_view> asked;

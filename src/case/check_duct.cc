@@ -53,7 +53,7 @@ void check_duct_in_time(const Case& c, const KeyReading& keys) {
   constexpr double greatest_degree = 6;
   if (c.time.degree.value_or(0) > greatest_degree)
     keys.refuse_stated("time.degree",
-                       fmt::format("is more than ducts have memory for; at most {:g} are possible", greatest_degree));
+                       fmt::format("needs too much memory in ducts; at most {:g} are possible", greatest_degree));
 }
 
 constexpr double most_unequal_sides = 4;
@@ -69,10 +69,10 @@ void check_rectangle(const Case& c, const KeyReading& keys) {
   if (c.channel.section != Section::rectangle) return;
   const double width = least_width_um(c.channel), height = *c.channel.height_um;
   if (std::max(width, height) > most_unequal_sides * std::min(width, height))
-    keys.refuse_stated(height_key,
-                       fmt::format("is outside its range {:.4g} .. {:.4g} um, a quarter to four times {}",
-                                   width / most_unequal_sides, width * most_unequal_sides,
-                                   c.channel.width_um ? "channel.width_um" : "the least of channel.profile.width_um"));
+    keys.refuse_stated(
+        height_key, fmt::format("is outside its range {:.4g} .. {:.4g} um, a quarter to four times {}",
+                                width / most_unequal_sides, width * most_unequal_sides,
+                                c.channel.width_um ? "channel.width_um" : "the minimum of channel.profile.width_um"));
   if (c.channel.camera == View::diagonal)
     keys.refuse_stated(camera, "is for squares; give the angle channel.camera_degree");
 }
@@ -84,8 +84,8 @@ void check_duct(const Case& c, const KeyReading& keys) {
   const double most = max_bending_in_ducts_kBT(c);
   if (c.cell.cortex.bending_kBT > most)
     keys.refuse_stated("cell.cortex.bending_kBT",
-                       fmt::format("is more than can be solved for in ducts, {:.2g} kBT for this cell, and far more "
-                                   "than cells have; lower it, or take the tube",
+                       fmt::format("exceeds the maximum that can be solved in ducts, {:.2g} kBT for this cell, and is "
+                                   "far above that of cells; lower it, or use the tube",
                                    most));
 }
 

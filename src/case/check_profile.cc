@@ -31,8 +31,9 @@ void check_places(const Case& c, const KeyReading& keys) {
     keys.refuse(key, fmt::format("{} has {} numbers and {} has {}; give one {} for each place.", key, given, profile_x,
                                  n, key == profile_R ? "radius" : "width"));
   if (n < 2 || n > most_places)
-    keys.refuse(profile_x, fmt::format("{} has {} places; a profile needs 2 .. {}, before and behind the contraction.",
-                                       profile_x, n, most_places));
+    keys.refuse(profile_x,
+                fmt::format("{} has {} places; a profile needs 2 .. {}, upstream and downstream of the contraction.",
+                            profile_x, n, most_places));
   for (std::size_t i = 1; i < n; ++i)
     if (!(wall.x_um[i] > wall.x_um[i - 1]))
       keys.refuse(profile_x,

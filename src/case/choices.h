@@ -35,12 +35,12 @@ inline constexpr Camera Camera::side{0}, Camera::diagonal{45}, Camera::along_wid
 /// Where a cell off the axis of a duct is: at the given place, or where it does not drift, sought from there.
 enum class CellPlace { given, equilibrium };
 
-/// What is wanted as accurately as the case says of a cell off the axis: the deformation of its silhouette, or its
+/// What is requested as accurately as the case says of a cell off the axis: the deformation of its silhouette, or its
 /// velocity, drift and rotation, which are right sooner.
 enum class AccuracyOf { deformation, motion };
 
 /// What drives the liquid: a given flow rate, a given pressure drop over the channel, or a pressure drop that is
-/// adapted in each step in time until the flow rate is the wanted one (Mokbel et al. 2017).
+/// adapted in each step in time until the flow rate is the requested one (Mokbel et al. 2017).
 enum class Drive { rate, pressure_drop, controlled_pressure };
 
 }  // namespace rheocyte

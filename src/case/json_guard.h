@@ -22,7 +22,7 @@ nlohmann::ordered_json parse_sound_json(std::string_view text);
 /// compilation.
 enum class JsonCharacters { utf8, ascii };
 std::string json_text(const nlohmann::ordered_json&, JsonCharacters = JsonCharacters::utf8);
-/// Likewise without line breaks.
+/// The same without line breaks.
 std::string json_line(const nlohmann::ordered_json&);
 
 }  // namespace rheocyte

@@ -81,7 +81,7 @@ struct KeyDescription {
   std::string_view alternative = {};    ///< the key that may stand instead; both together are refused
   std::string_view option = {};         ///< the spelling on command lines: "--channel-width-um"
   std::string_view former_option = {};  ///< still understood
-  std::string_view former_name = {};    ///< likewise
+  std::string_view former_name = {};    ///< as above
 };
 
 /// The key of a name that was another one in the version before.

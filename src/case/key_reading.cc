@@ -102,8 +102,7 @@ void KeyReading::take(GivenKey given) {
   if (found.by_former_name) given.key = std::string(found.key->name).append(found.part);
   Parts& parts = given_[found.key->name];
   const bool is_known = std::ranges::find(parts, given.key, &GivenKey::key) != parts.end();
-  if (is_known && !given.from_set)
-    rheocyte::refuse(given, fmt::format("{} is given for the second time.", rheocyte::stated(given)));
+  if (is_known && !given.from_set) rheocyte::refuse(given, fmt::format("{} is given twice.", rheocyte::stated(given)));
   std::erase_if(parts, [&](const GivenKey& earlier) { return found.part.empty() || earlier.key == given.key; });
   parts.push_back(std::move(given));
 }

@@ -91,7 +91,7 @@ Spread checked_spread(const KeyDescription& key, std::span<const GivenKey> parts
   const auto *plain = part(""), *mean = part(".mean"), *deviation = part(".sd"), *law = part(".distribution");
   const Value* usual = fallback_of(key);
   if (!plain && !mean && !usual)
-    refuse(parts.front(), fmt::format("{} needs {}.mean, too.", parts.front().key, key.name));
+    refuse(parts.front(), fmt::format("{} also needs {}.mean.", parts.front().key, key.name));
   Spread spread;
   spread.mean = plain || mean ? checked_number(key, {range}, plain ? *plain : *mean) : std::get<Spread>(*usual).mean;
   if (deviation) spread.deviation = checked_number(key, {{0, range.greatest}}, *deviation);

@@ -41,9 +41,9 @@ struct Problem : Media {
   double pressure_gradient = 0;       ///< in a duct the given one, in S/h, where U is a nominal speed
   double channel_length = 0;          ///< simulated, in R; 0: the shortest, 2 min_half_length()
   WallTable wall;                     ///< the way of the cell; acts in time only
-  AxialTensionTable tension_profile;  ///< likewise, in place of the media's tension
+  AxialTensionTable tension_profile;  ///< as above, in place of the media's tension
   double start_stretch = 1;           ///< of the cell along the flow when it starts in time
-  double accuracy = 1e-4;             ///< wanted relative accuracy of the deformation
+  double accuracy = 1e-4;             ///< requested relative accuracy of the deformation
   AccuracyOf accuracy_of = AccuracyOf::deformation;  ///< off the axis
 };
 

@@ -23,9 +23,8 @@ namespace {
 void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
   const std::vector<double>& offset = c.cell.offset_um;
   if (c.cell.place == CellPlace::equilibrium && is_centred(c.cell))
-    keys.refuse_stated(
-        "cell.place",
-        "is for cells off the axis; give cell.offset_um, from where the place is sought, or leave it out");
+    keys.refuse_stated("cell.place",
+                       "is for cells off the axis; give cell.offset_um, from where the search starts, or leave it out");
   if (offset.empty()) return;
   const auto refuse = [&](std::string_view reason) { keys.refuse_stated("cell.offset_um", reason); };
   if (offset.size() != 2) refuse("must be two numbers, along the width and along the height");
@@ -46,7 +45,7 @@ void check_offset(const Case& c, const KeyReading& keys, bool has_radius) {
                                        : unit_length_um(c) * (offset[0] != 0 ? extent.width : extent.height);
   const double most = max_offset(half, c.cell.radius_um);
   if (std::abs(offset[0] + offset[1]) > most)
-    refuse(fmt::format("is too near to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",
+    refuse(fmt::format("is too close to the wall for cell.radius_um = {:g}; at most {:.4g} um are possible",
                        c.cell.radius_um, most));
 }
 
@@ -61,7 +60,7 @@ void check_cell_in_tube(const Case& c, const KeyReading& keys) {
   if (r0 >= min_radius_ratio * R && r0 <= max_radius_ratio * R) return;
   constexpr std::string_view key = "cell.radius_um";
   const auto what = c.channel.section == Section::square      ? "half width of the square"
-                    : c.channel.section == Section::rectangle ? "lesser half width of the rectangle"
+                    : c.channel.section == Section::rectangle ? "smaller half width of the rectangle"
                                                               : "tube radius";
   keys.refuse_stated(
       key, fmt::format("is outside its range {:.4g} .. {:.4g} um, {} .. {} of the {} {:.6g} um", min_radius_ratio * R,
@@ -138,7 +137,7 @@ void check_elongation(const Case& c, const KeyReading& keys, bool has_radius) {
                        "has no stationary shape off the axis, where the rest shape turns with the material; leave it "
                        "out, or give flow.axial_tension_Pa");
   if (c.cell.viscoelasticity == Viscoelasticity::maxwell)
-    keys.refuse_stated(aspect, "is for cells that remember a shape, which a Maxwell liquid does not; leave it out");
+    keys.refuse_stated(aspect, "is for cells with a shape at rest, which a Maxwell liquid does not have; leave it out");
 }
 
 void check_start(const Case& c, const KeyReading& keys) {

@@ -28,7 +28,7 @@ struct Unit {
 /// Of a name without a unit: a pure number or a word.
 inline constexpr Unit no_unit{};
 
-/// In "Pa_sn" the power of the time depends on the liquid; no dimension can be told.
+/// In "Pa_sn" the power of the time depends on the liquid; no dimension can be determined.
 inline constexpr std::array units{Unit{"um", "um", {1, 0, 0}, 1e6},
                                   Unit{"um2", "um^2", {2, 0, 0}, 1e12},
                                   Unit{"um3", "um^3", {3, 0, 0}, 1e18},

@@ -20,7 +20,7 @@ struct DuctShape {
   Section section = Section::square;
   double radius = 0.5;  ///< of the cell
   Extent extent = {};   ///< of a rectangle
-  double length = 0;    ///< of the duct that is told of; 0: the shortest
+  double length = 0;    ///< of the reported duct; 0: the shortest
   double run_out = 0;   ///< by which the mesh goes on beyond it at both ends
   double offset = 0;    ///< of the cell's centre in y
   /// Half-length of the box round the cell, and of its front edge at the wall that is nearer to a cell off the axis of

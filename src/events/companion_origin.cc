@@ -37,7 +37,7 @@ std::vector<std::string> paths_to(const fs::path& original, const fs::path& fold
 std::string log_of(const std::string& command) { return "rheocyte-" + command; }
 
 [[noreturn]] void refuse_to_replace(const fs::path& place, const std::string& what) {
-  refuse_path(place, fmt::format("is there and {}; move it away, or name another folder with -o.", what));
+  refuse_path(place, fmt::format("already exists and {}; move it away, or name another folder with -o.", what));
 }
 
 // Nothing if it is not a recording at all.

@@ -10,14 +10,14 @@ namespace rheocyte {
 
 class EventPass {
  public:
-  /// As long as it lives, reading the recording tells that it goes on, also where a single read takes long. The
+  /// As long as it lives, reading the recording reports that it goes on, also where a single read takes long. The
   /// recording must outlive it.
   EventPass(Recording& recording, TellProgress tell);
   ~EventPass() { recording_.on_piece({}); }
   EventPass(const EventPass&) = delete;
   EventPass& operator=(const EventPass&) = delete;
 
-  /// For long work on single events: tells that it goes on. It may be asked as often as one likes.
+  /// For long work on single events: reports that it goes on. It may be asked as often as one likes.
   Watch watch() const { return {.alive = goes_on_}; }
 
   /// work(first, count) on events [first, first + count), with `at_a_time` events but for the last block.

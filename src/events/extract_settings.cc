@@ -24,7 +24,7 @@ struct Quantity {
 
 Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
 
-// Of what is no positive number; with a decimal comma, for example, the text tells what is wrong.
+// Of what is no positive number; with a decimal comma, for example, the text states what is wrong.
 std::string what_is_stored(const Recording& recording, const std::string& key) {
   if (!recording.metadata().has(key)) return key + " is missing";
   const auto text = recording.metadata().text(key);
@@ -37,7 +37,7 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
   const auto& [key, unit, way_out, range] = wanted;
   const auto stored = recording.metadata().number(key);
   if (stored && *stored > 0 && !range.contains(*stored))
-    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is its unit another one? Give it with {}.", key,
+    refuse_path(recording.file(), fmt::format("{} is {:g}, outside {}; is it in another unit? Give it with {}.", key,
                                               *stored, range_text(range, unit), way_out));
   if (stored && *stored > 0) return *stored;
   refuse_path(recording.file(), fmt::format("{}; give it with {}.", what_is_stored(recording, key), way_out));

@@ -27,10 +27,10 @@ void add_rate(const Recording& recording, double rate_ul_s, std::vector<std::str
   if (!sample || !sheath || !(*sample >= 0 && *sheath >= 0 && *sample + *sheath > 0)) return;
   const double sum = *sample + *sheath;
   if (std::abs(sum / rate_ul_s - 1) <= rate_tolerance) return;
-  sentences.push_back(fmt::format(
-      "setup:flow rate is {:g} ul/s, but sample and sheath together are {:g} ul/s; moduli are in proportion "
-      "to the flow rate, and {:g} ul/s was taken (--flow-rate-ul-s gives another one).",
-      rate_ul_s, sum, rate_ul_s));
+  sentences.push_back(
+      fmt::format("setup:flow rate is {:g} ul/s, but sample and sheath together are {:g} ul/s; moduli are proportional "
+                  "to the flow rate, and {:g} ul/s was used (--flow-rate-ul-s sets another value).",
+                  rate_ul_s, sum, rate_ul_s));
 }
 
 // Areas are stored in um^2 and in pixels: their ratio is the area of a pixel.
@@ -82,16 +82,17 @@ void check_outline_noise(const std::filesystem::path& recording, double noise_um
   const double radius_um = std::exp(outlines.median(int(ShapeFeature::area_um2)) / 2) * std::numbers::inv_sqrtpi;
   if (noise_um > most_of_radius * radius_um)
     refuse_path(recording, fmt::format("its outlines have a median radius of {:.3g} um, and --outline-noise-um {:g} is "
-                                       "more than a tenth of it; give what beads tell, in um.",
+                                       "more than a tenth of it; give the value measured with beads, in um.",
                                        radius_um, noise_um));
   if (noise_um == 0 || outlines.modes_7.size() < fewest_that_scatter) return;
   const double scatter = central_width(outlines.modes_7) / deviations_in_90_percent;
   const double of_noise = scatter_of_mode_7(outlines.median, noise_um, pixel_size_um);
   if (of_noise > most_of_scatter * scatter)
-    refuse_path(recording, fmt::format("--outline-noise-um {:g} is too large: it would make the mode c7 of equal cells "
-                                       "scatter by {:.2g}, and that of the events scatters by {:.2g}; give what beads "
-                                       "tell, in um.",
-                                       noise_um, of_noise, scatter));
+    refuse_path(
+        recording,
+        fmt::format("--outline-noise-um {:g} is too large: it would make the mode c7 of equal cells scatter by {:.2g}, "
+                    "and that of the events scatters by {:.2g}; give the value measured with beads, in um.",
+                    noise_um, of_noise, scatter));
 }
 
 std::vector<std::string> contradictions(const Recording& recording, double rate_ul_s, double pixel_size_um) {

@@ -70,15 +70,15 @@ class PolygonReader {
 
   std::vector<PolygonGate> end() {
     finish();
-    if (gates_.empty()) refuse_path(file_, "holds no polygon filters; DCscope and dclab save them as .poly files.");
+    if (gates_.empty()) refuse_path(file_, "contains no polygon filters; DCscope and dclab save them as .poly files.");
     return std::move(gates_);
   }
 
  private:
   [[noreturn]] void refuse() const {
-    refuse_path(
-        file_,
-        fmt::format("line {} is none of a polygon filter of DCscope or dclab; save the filter once more.", number_));
+    refuse_path(file_,
+                fmt::format("line {} is not a line of a polygon filter of DCscope or dclab; save the filter once more.",
+                            number_));
   }
 
   void read_point(std::string_view number, std::string_view value) {
@@ -97,7 +97,7 @@ class PolygonReader {
     if (!is_open_) return;
     for (const auto& [place, corner] : points_) shape_.corners.push_back(corner);
     if (shape_.x.empty() || shape_.y.empty() || shape_.corners.size() < 3)
-      refuse_path(file_, "holds a polygon without two axes or three corners; save the filter once more.");
+      refuse_path(file_, "contains a polygon without two axes or three corners; save the filter once more.");
     gates_.emplace_back(std::move(shape_));
     shape_ = {};
     points_.clear();

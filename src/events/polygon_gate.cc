@@ -63,7 +63,7 @@ PolygonGate::PolygonGate(const std::string& text) {
       refuse_polygon(text, "a corner is two numbers, which are positive on a logarithmic axis");
     corners_.push_back({x, y});
   }
-  if (corners_.size() < fewest_corners) refuse_polygon(text, "give three corners at least");
+  if (corners_.size() < fewest_corners) refuse_polygon(text, "give at least three corners");
 }
 
 PolygonGate::PolygonGate(Shape shape)

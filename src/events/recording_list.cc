@@ -87,8 +87,7 @@ void check_for_one_name(const Places& places) {
   for (const auto& [place, recordings] : places)
     if (recordings.size() > 1)
       throw UserError(fmt::format(
-          "{} and {} would have results of one name; give them in two calls with different "
-          "folders.",
+          "the results of {} and {} would have the same name; give them in two calls with different folders.",
           one_line(recordings[0]->recording.string(), 300), one_line(recordings[1]->recording.string(), 300)));
 }
 
@@ -99,8 +98,7 @@ RecordingList list_recordings(const BatchOptions& options) {
   const std::vector<Found> found = found_by(options, list.passed_over);
   if (found.empty() && !list.passed_over.empty())
     refuse_path(list.passed_over.front(),
-                "is a result of this program, as its name says; give the recording that it was "
-                "made from.");
+                "is a result of this program, according to its name; give the original recording.");
   if (found.empty()) throw UserError("rheocyte: there is no recording (.rtdc) in the given folders.");
   Places plain, used;
   for (const auto& one : found) plain[in_full(results_of(one, options, ""))].push_back(&one);
@@ -129,8 +127,8 @@ std::vector<fs::path> without_companions_of_others(const std::vector<fs::path>& 
 
 std::string passed_over_text(const std::vector<fs::path>& passed_over) {
   const std::string first = one_line(passed_over.front().string(), 300);
-  if (passed_over.size() == 1) return fmt::format("{}: is a result of this program and was passed over.", first);
-  return fmt::format("{} and {} more are results of this program and were passed over.", first, passed_over.size() - 1);
+  if (passed_over.size() == 1) return fmt::format("{}: is a result of this program and was skipped.", first);
+  return fmt::format("{} and {} more are results of this program and were skipped.", first, passed_over.size() - 1);
 }
 
 fs::path summary_file(const BatchOptions& options) {
@@ -141,7 +139,7 @@ fs::path summary_file(const BatchOptions& options) {
     const fs::path place = place_of_input(input);
     while (std::ranges::mismatch(common, place).in1 != common.end()) common = common.parent_path();
   }
-  // Nobody's results belong at the root of the file system.
+  // No one's results belong at the root of the file system.
   return (common == common.root_path() ? place_of_input(options.inputs.front()) : common) / name;
 }
 

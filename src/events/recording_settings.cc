@@ -50,17 +50,17 @@ Setting pixel_size(std::optional<double>& um) {
 }
 
 Setting outline_noise(std::optional<double>& um) {
-  return of_key(*find_key(synth_keys(), "noise.contour_um"),
-                setting("outline_noise_um", "Outline noise", &um,
-                        "standard deviation of the error of the segmented outline along its normal, beside that of the "
-                        "pixels, as beads tell it (docs/populations.md); smooth over some 0.7 um of the outline",
-                        "0"));
+  return of_key(
+      *find_key(synth_keys(), "noise.contour_um"),
+      setting("outline_noise_um", "Outline noise", &um,
+              "standard deviation of the segmentation error of the outline along its normal, in addition to the error "
+              "of the pixels, as measured with beads (docs/populations.md); smooth over about 0.7 um of the outline",
+              "0"));
 }
 
 Setting patience(std::optional<double>& seconds) {
-  Setting patience =
-      in_unit("s", setting("patience", "Patience", &seconds,
-                           "give a recording up when nothing was read from it for so many seconds", "60"));
+  Setting patience = in_unit("s", setting("patience", "Patience", &seconds,
+                                          "time without any data from a recording after which it is given up", "60"));
   patience.range = {1e-3, 1e9};
   return patience;
 }
@@ -68,8 +68,8 @@ Setting patience(std::optional<double>& seconds) {
 Setting axial_tension(std::optional<double>& Pa, std::string_view otherwise) {
   return of_key(case_key("flow.axial_tension_Pa"),
                 setting("axial_tension_Pa", "Axial tension", &Pa,
-                        "axial tension of the liquid, for the effective modulus: of the same medium, channel and flow "
-                        "rate it is one, so that recordings without inertia ratios have it from others",
+                        "axial tension of the liquid, for the effective modulus of recordings without inertia ratios; equal for "
+                        "equal medium, channel and flow rate",
                         otherwise));
 }
 
@@ -81,26 +81,26 @@ Setting section_setting(std::optional<Section>& section, std::string_view senten
 /// In which the cells were seen, by a table of the tube.
 Setting seen_section(std::optional<Section>& section) {
   return section_setting(section,
-                         "of the channel: square, by the difference between solids there and in the tube of the table, "
-                         "or tube, as virtual cells of such a table have it",
-                         "square, but tube for virtual cells of the table");
+                         "cross-section of the channel: square, corrected by the difference between solids there and "
+                         "in the tube of the table; or tube, as for virtual cells of such a table",
+                         "square, except for virtual cells of the table");
 }
 
 Settings gate_settings(GateOptions& gates) {
   constexpr std::string_view limit = "FEATURE=VALUE";
-  return {formerly("least", of_type(limit, {},
-                                    setting("min", "a gate", &gates.min,
-                                            "take only events whose feature is not below a value, e.g. area_um=40"))),
-          formerly("greatest",
-                   of_type(limit, {},
-                           setting("max", "a gate", &gates.max,
-                                   "take only events whose feature is not above a value, e.g. area_ratio=1.05"))),
-          formerly("polygons",
-                   of_type("FEATURE,FEATURE=X,Y:...|FILE.poly", {},
-                           setting("polygon", "a polygon", &gates.polygons,
-                                   "take only events within a polygon in the plane of two features, e.g. "
-                                   "area_um,deform=40,0.01:90,0.01:90,0.1; log:area_um draws its edges over the "
-                                   "logarithm; or a file of polygon filters of DCscope or dclab")))};
+  return {
+      formerly("least", of_type(limit, {},
+                                setting("min", "a gate", &gates.min,
+                                        "use only events whose feature is at least this value, e.g. area_um=40"))),
+      formerly("greatest",
+               of_type(limit, {},
+                       setting("max", "a gate", &gates.max,
+                               "use only events whose feature is at most this value, e.g. area_ratio=1.05"))),
+      formerly("polygons", of_type("FEATURE,FEATURE=X,Y:...|FILE.poly", {},
+                                   setting("polygon", "a polygon", &gates.polygons,
+                                           "use only events within a polygon in the plane of two features, e.g. "
+                                           "area_um,deform=40,0.01:90,0.01:90,0.1; log:area_um draws its edges over "
+                                           "the logarithm; or a file of polygon filters of DCscope or dclab")))};
 }
 
 Settings together(Settings first, Settings second) {
@@ -111,19 +111,19 @@ Settings together(Settings first, Settings second) {
 /// Of the liquid, in which viscosity and temperature replace each other.
 Settings liquid_settings(MeasuringOptions& m) {
   const auto of_medium =
-      setting("medium", "Medium", &m.medium, "in which the cells flow, e.g. CellCarrier, 0.59% MC-PBS, water",
-              "from the recording");
+      setting("medium", "Medium", &m.medium,
+              "medium in which the cells are suspended, e.g. CellCarrier, 0.59% MC-PBS, water", "from the recording");
   const auto model =
       setting("viscosity_model", "Viscosity model", &m.viscosity_model,
-              "by which a medium has its viscosity: buyukurganci-2022 or herold-2017", "buyukurganci-2022");
-  const auto temperature =
-      setting("temperature", "Temperature", &m.temperature, "degC; or feature: of each event; or metadata",
-              "of each event if the recording has it");
+              "model of the viscosity of the medium: buyukurganci-2022 or herold-2017", "buyukurganci-2022");
+  const auto temperature = setting("temperature", "Temperature", &m.temperature,
+                                   "temperature of the medium: a value in degC; feature, of each event; or metadata",
+                                   "of each event if recorded, else from the metadata");
   const auto if_missing =
       setting("temperature_if_missing", "Temperature if missing", &m.temperature_if_missing,
-              "degC, only where none is recorded, also of single events", "such recordings are refused");
+              "temperature in degC for recordings and events without a recorded one", "such recordings are refused");
   return {usual(of_key(case_key("flow.viscosity_mPas"), setting("viscosity_mPas", "Viscosity", &m.viscosity_mPas, "",
-                                                                "that of the medium by its model"))),
+                                                                "of the medium, from the viscosity model"))),
           usual(of_type("", {"CellCarrier", "CellCarrierB", "0.83% MC-PBS", "water"}, of_medium)),
           of_type("", {"buyukurganci-2022", "herold-2017"}, model),
           usual(in_unit("degC", of_type("VALUE|feature|metadata", {"feature", "metadata"}, temperature))),
@@ -147,38 +147,38 @@ Settings settings_of(MeasuringOptions& m) {
 Settings table_settings(std::string& table, std::optional<Section>& section) {
   return {usual(of_type("TABLE", {},
                         setting("table", "Table", &table,
-                                "look-up table: a folder of `rheocyte table`, a file (grid_*.cbor, or in dclab's "
-                                "format), or an identifier of the program's tables or of an installed dclab's",
-                                "the program's own for the medium"))),
+                                "look-up table: folder of `rheocyte table`, file (grid_*.cbor, or in dclab's format), "
+                                "or identifier of a table of the program or of an installed dclab",
+                                "the table of the program for the medium"))),
           section_setting(section,
-                          "which of the program's own tables: square, the channel itself in three dimensions, or "
-                          "tube, of equal pressure drop, which reaches greater deformations",
+                          "cross-section of the program's tables: square, the channel itself in three dimensions; or "
+                          "tube, with the same pressure drop, for larger deformations",
                           "square")};
 }
 
 Settings settings_of(ExtractOptions& o) {
-  return together(together(table_settings(o.table, o.section), settings_of(o.measuring)),
-                  {formerly("pixelation", setting("no_pixelation", "No pixelation", &o.no_pixelation,
-                                                  "correct nothing for the pixels")),
-                   formerly("correct_area", setting("no_area_correction", "No area correction", &o.no_area_correction,
-                                                    "do not correct areas for the pixels; published tables never do")),
-                   formerly("asymmetry", setting("no_asymmetry", "No asymmetry", &o.no_asymmetry,
-                                                 "do not read contours and masks for the modulus from the asymmetry of "
-                                                 "the outlines; faster")),
-                   axial_tension(o.axial_tension_Pa, "it follows from the shapes of the cells")});
+  return together(
+      together(table_settings(o.table, o.section), settings_of(o.measuring)),
+      {formerly("pixelation",
+                setting("no_pixelation", "No pixelation", &o.no_pixelation, "do not correct for pixelation")),
+       formerly("correct_area", setting("no_area_correction", "No area correction", &o.no_area_correction,
+                                        "do not correct areas for pixelation; never done with published tables")),
+       formerly("asymmetry", setting("no_asymmetry", "No asymmetry", &o.no_asymmetry,
+                                     "do not compute the modulus from the asymmetry of contours and masks; faster")),
+       axial_tension(o.axial_tension_Pa, "found from the shapes of the cells")});
 }
 
 Settings settings_of(ModuliOptions& o) {
   Setting tension = of_key(case_key("flow.axial_tension_Pa"),
                            setting("axial_tension_Pa", "Axial tension", &o.axial_tension_Pa,
-                                   "tension of the liquid along the flow, which elongates the cells, 0 = none",
-                                   "it is found for each recording, if the table has elongated cells"));
+                                   "tension of the liquid along the flow, which elongates the cells; 0 = none",
+                                   "fitted to each recording if the table has elongated cells"));
   tension.former_option = "--axial-tension";
-  return together(
-      together({seen_section(o.section)}, settings_of(o.measuring)),
-      {setting("fit_tension", "Fit tension", &o.fit_tension,
-               "the tension of the cortex, too, by a table with several of them; tables of elongated cells always do"),
-       tension, outline_noise(o.outline_noise_um)});
+  return together(together({seen_section(o.section)}, settings_of(o.measuring)),
+                  {setting("fit_tension", "Fit tension", &o.fit_tension,
+                           "also fit the tension of the cortex, with a table of several tensions; always done with "
+                           "tables of elongated cells"),
+                   tension, outline_noise(o.outline_noise_um)});
 }
 
 Settings settings_of(TimeCourseOptions& o) { return together({seen_section(o.section)}, settings_of(o.measuring)); }
@@ -186,44 +186,46 @@ Settings settings_of(TimeCourseOptions& o) { return together({seen_section(o.sec
 Settings settings_of(PopulationOptions& o) {
   Setting between = setting("between_recordings", "Between recordings", &o.between_recordings,
                             "standard deviation of ln E between recordings of one condition, known from earlier "
-                            "experiments, for a normal test beside the t test");
+                            "experiments, for a normal test in addition to the t test");
   between.range = {0, 2};
-  Setting jobs = setting("jobs", "Jobs", &o.jobs, "threads; the numbers do not depend on them", "all processor cores");
+  Setting jobs =
+      setting("jobs", "Jobs", &o.jobs, "number of threads; results do not depend on it", "all processor cores");
   jobs.range = {1, 1024};
   return together(
-      {of_type(
-           "MODEL", {"solid", "cortex", "effective"},
-           setting(
-               "model", "Cells", &o.model,
-               "what the cells are: solid; effective, cells with a cortex in the proportions of HL60 cells, by "
-               "their medians of area, deformation and inertia ratio; or cortex, for which outlines determine bulk, "
-               "cortex and tensions",
-               "solid")),
+      {of_type("MODEL", {"solid", "cortex", "effective"},
+               setting("model", "Cells", &o.model,
+                       "model of the cells: solid; effective, cells with a cortex in the proportions of HL60 cells, "
+                       "fitted to the medians of area, deformation and inertia ratio; or cortex, with bulk, cortex and "
+                       "tensions fitted to the outlines",
+                       "solid")),
        seen_section(o.section),
        of_type("MEASURE", {"asymmetry", "odd-deformation", "deformation"},
                setting("by", "By", &o.by,
-                       "from what the stiffness follows, beside the area: asymmetry of the outline; odd-deformation, "
-                       "deformation and inertia ratio; or deformation, of cells that the flow alone elongates",
+                       "measure that determines the stiffness, in addition to the area: asymmetry of the outline; "
+                       "odd-deformation, from deformation and inertia ratio; or deformation, of cells elongated only "
+                       "by the flow",
                        "asymmetry")),
        setting("paired", "Paired", &o.paired,
-               "the first recordings of all conditions are of one session, the second ones of another"),
+               "the first recordings of all conditions are from one session, the second ones from another, and so on"),
        std::move(between),
        of_type("NAME=VALUE", {},
                setting("dose", "a dose", &o.doses,
-                       "the dose of a condition, e.g. drug=0.05; the first condition has dose 0 if no other is given. "
-                       "Reports the trend over the doses and the EC50")),
+                       "dose of a condition, e.g. drug=0.05; the first condition has dose 0 by default. Reports the "
+                       "trend over the doses and the EC50")),
        of_type("UNIT", {},
-               setting("dose_unit", "Unit of the dose", &o.dose_unit, "for words and pictures, e.g. ug/ml", "none")),
+               setting("dose_unit", "Unit of the dose", &o.dose_unit,
+                       "unit of the doses in texts and pictures, e.g. ug/ml", "none")),
        setting("shared_spread", "Shared spread", &o.shared_spread,
-               "of solids: one spread of radius and modulus for all recordings of a condition"),
+               "for solids: one spread of radius and modulus for all recordings of a condition"),
        outline_noise(o.outline_noise_um),
        of_type("TABLE", {},
                setting("table", "Table", &o.table,
-                       "table of elongated cells: a file elongated_*.cbor, the folder of `rheocyte table` with one, or "
-                       "an identifier of the program's tables; of cells with a cortex a combined one",
-                       "the program's own")),
-       axial_tension(o.axial_tension_Pa, "it follows from the shapes of the cells in each recording"),
-       setting("no_bins", "No bins", &o.no_bins, "take each event by itself, also of more than 20,000"),
+                       "table of elongated cells (for --model cortex, of cells with bulk and cortex): file "
+                       "elongated_*.cbor (combined_*.cbor), folder of `rheocyte table` with such a file, or identifier "
+                       "of a table of the program",
+                       "the table of the program")),
+       axial_tension(o.axial_tension_Pa, "found from the shapes of the cells of each recording"),
+       setting("no_bins", "No bins", &o.no_bins, "do not bin the events of recordings with more than 20,000 events"),
        std::move(jobs)},
       settings_of(o.measuring));
 }

@@ -7,7 +7,7 @@
 
 namespace rheocyte {
 
-/// Their values go into these options, which must outlive them. In the order in which they are told.
+/// Their values go into these options, which must outlive them. In the order in which they are listed.
 Settings settings_of(ExtractOptions&);
 Settings settings_of(ModuliOptions&);
 Settings settings_of(TimeCourseOptions&);

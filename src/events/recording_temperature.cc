@@ -94,8 +94,8 @@ class Search {
     const bool of_events = events_ && std::isfinite(events_->median);
     if (of_events || (stored && is_possible_temperature(*stored)))
       notes_.push_back(
-          fmt::format("--temperature {:g} is taken in place of the recorded one ({:.4g} degC{}); "
-                      "--temperature-if-missing leaves those that are recorded.",
+          fmt::format("--temperature {:g} replaces the recorded temperature ({:.4g} degC{}); --temperature-if-missing "
+                      "keeps recorded temperatures.",
                       value, of_events ? events_->median : *stored, of_events ? ", median of the events" : ""));
     return value;
   }
@@ -120,7 +120,7 @@ class Search {
     const auto stored = recording_.metadata().number("setup:temperature");
     const bool is_stored = stored && is_possible_temperature(*stored);
     const double taken = is_stored ? *stored : wanted;
-    notes_.push_back(fmt::format("{} events have temperatures that are {}; for them {:g} degC is taken{}.",
+    notes_.push_back(fmt::format("{} events have temperatures that are {}; for them {:g} degC is used{}.",
                                  events_->impossible, what, taken, is_stored ? ", setup:temperature" : ""));
     return taken;
   }
@@ -138,7 +138,7 @@ class Search {
       return std::nullopt;
     }
     if (is_possible_temperature(*stored)) {
-      if (!notes_.empty()) notes_.back() += fmt::format(" setup:temperature, {:g} degC, is taken.", *stored);
+      if (!notes_.empty()) notes_.back() += fmt::format(" setup:temperature, {:g} degC, is used.", *stored);
       return stored;
     }
     notes_.push_back(fmt::format("setup:temperature is {:g}, but a buffer in a channel has {}{}.", *stored,

@@ -16,7 +16,7 @@ std::string temperature_text(const RecordingFacts& facts) {
 
 std::string inertia_text(const RecordingFacts& facts) {
   return fmt::format(
-      "{} {} above {:g}, up to {:.2g}: the tables contain no inertia of the liquid, which changes moduli by about "
+      "{} {} above {:g}, up to {:.2g}: the tables neglect the inertia of the liquid, which changes moduli by about "
       "{:.1f} % for each unit up to 8 and by an unknown amount beyond; are flow rate and viscosity right?",
       facts.inertial, facts.inertial == 1 ? "event has a Reynolds number" : "events have Reynolds numbers",
       max_reynolds_number, facts.greatest_reynolds_number, 100 * modulus_per_reynolds);

@@ -14,7 +14,7 @@
 
 namespace rheocyte {
 
-/// As it is given, whoever gives it.
+/// As it is given, regardless of the source.
 using SettingValue = std::variant<bool, double, std::string, std::vector<std::string>, std::vector<double>>;
 
 /// A number or a text that may stay open, a text that is empty then, texts, the section of the channel, a flag; a

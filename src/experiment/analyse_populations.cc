@@ -69,7 +69,7 @@ void PopulationAnalysis::check_new(const RecordingReport& recording, const Popul
   std::vector<double> first(areas.begin(), areas.begin() + std::ptrdiff_t(std::min(areas.size(), areas_that_tell)));
   for (std::size_t k = 0; k < recordings_.size(); ++k)
     if (recordings_[k].recorded == events.recorded && first_areas_[k] == first)
-      refuse_path(recording.recording, fmt::format("holds the same events as {}; each measurement counts once.",
+      refuse_path(recording.recording, fmt::format("contains the same events as {}; each measurement counts once.",
                                                    recordings_[k].recording.string()));
   first_areas_.push_back(std::move(first));
 }
@@ -128,11 +128,10 @@ std::vector<std::string> PopulationAnalysis::unlike_recordings() const {
   for (std::size_t c = 0; c < conditions_.size(); ++c) {
     const std::string &name = conditions_[c].name, &first = conditions_.front().name;
     if (const auto differences = differences_within(of_condition[c]); !differences.empty())
-      warnings.push_back(
-          fmt::format("the recordings of {} differ in {}; each is read by its own map, but the cells need not be the "
-                      "same there. How "
-                      "E grows as a power of the stress is told of three flow rates in one channel and one medium.",
-                      name, differences));
+      warnings.push_back(fmt::format(
+          "the recordings of {} differ in {}; each is read by its own map, but the cells need not be the same there. "
+          "The increase of E as a power of the stress needs three flow rates in one channel and one medium.",
+          name, differences));
     if (const auto differences = differences_between(of_condition.front(), of_condition[c]); !differences.empty())
       warnings.push_back(
           fmt::format("{} and {} differ in {}: their ratio is not that of the cells alone.", name, first, differences));

@@ -111,7 +111,7 @@ void tell(const CombinedPopulation& found, CombinedReport& combined, RecordingRe
     more_events_help |= !is_told(e) && std::sqrt(e.mean.variance) > e.common_error;
   }
   if (!combined.not_told.empty())
-    r.warnings.push_back(fmt::format("bulk and cortex are not told apart, because {}; what is known is {}.",
+    r.warnings.push_back(fmt::format("bulk and cortex are not determined separately, because {}; known: {}.",
                                      combined.not_told, told.empty() ? "nothing" : listed(told)));
   if (!unknown.empty())
     r.warnings.push_back(fmt::format("{} {} not given: known to no better than {:.0f} %{}", listed(unknown),
@@ -141,7 +141,7 @@ void tell_bounds(const MomentFit& fit, RecordingReport& r) {
         fmt::format("{} {} at the end of the table, and cells beyond it may fit better; the intervals allow for them.",
                     listed(means), are(means)));
   if (!spreads.empty())
-    r.warnings.push_back(fmt::format("{} {} at the bound of what is searched; the intervals take {} as known.",
+    r.warnings.push_back(fmt::format("{} {} at the bound of the search; the intervals take {} as known.",
                                      listed(spreads), are(spreads), spreads.size() > 1 ? "them" : "it"));
 }
 
@@ -232,7 +232,7 @@ std::string CombinedPopulations::systematic_errors(std::span<const RecordingRepo
       if (const QuantityEstimate* e = r.estimate(wanted.quantity)) greatest = std::max(greatest, e->common_error);
     if (greatest > 0) errors.push_back(fmt::format("{:.2g} % of {}", 100 * greatest, words_of(wanted.quantity).symbol));
   }
-  return "table, section and what they miss " +
+  return "table, section and their remaining errors " +
          (errors.empty() ? "as docs/verification.md has them" : joined(errors, ", ")) +
          "; pixels below the intervals; viscosity model as docs/verification.md has it";
 }
@@ -254,7 +254,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   if (!fit.is_found) {
     r.failure =
         "no population of cells with bulk, cortex and tensions was found that has these outlines; `rheocyte moduli` "
-        "tells how far single events are from the cells of the table.";
+        "reports how far single events are from the cells of the table.";
     return;
   }
   combined.strangers = cells.size() - combined.found.smaller - combined.found.larger - fit.events;
@@ -272,7 +272,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   tell_beyond(r);
   tell_stiff(combined.found, moduli_.table().box(), r);
   if (r.quantities.empty()) {
-    r.failure = "the events do not tell the parameters of the population apart; more events help.";
+    r.failure = "the events do not determine all parameters of the population; more events help.";
     return;
   }
   r.checks = checks_of(combined.found, cells, events.pixel_size_um);

@@ -20,9 +20,8 @@ std::string limit_text(const Experiment& e) {
       : spread >= image                  ? "the spread between cells, which more cells bring down"
                                          : "the error of single images, which another channel or flow brings down";
   return fmt::format(
-      "of the variance of a difference {:.0f} % come from the scatter between recordings, {:.0f} % from the spread "
-      "between "
-      "cells, {:.0f} % from the images: what limits is {}.",
+      "variance of a difference: {:.0f} % from the scatter between recordings, {:.0f} % from the spread between cells, "
+      "{:.0f} % from the images; it is limited by {}.",
       100 * between / all, 100 * spread / all, 100 * image / all, greatest);
 }
 
@@ -34,18 +33,17 @@ std::string channels_with_inertia_text(const std::vector<PlannedChannel>& all) {
     if (c.reynolds_number > max_reynolds_number) ++channels, greatest = std::max(greatest, c.reynolds_number);
   if (channels == 0) return {};
   return fmt::format(
-      "{} of these channels have Reynolds numbers above {:g}, up to {:.2g}, and are not recommended: the tables hold "
-      "no "
-      "inertia of the liquid.",
+      "{} of these channels have Reynolds numbers above {:g}, up to {:.2g}, and are not recommended: the tables "
+      "neglect the inertia of the liquid.",
       channels, max_reynolds_number, greatest);
 }
 
 /// What is not as it should be, and what helps; empty of a recommended one.
 std::string remedy_text(const PlannedChannel& c) {
   if (c.deformation < recommended_deformation.least)
-    return "; a narrower channel, more flow or a thicker medium would deform the cells more";
+    return "; a narrower channel, a higher flow rate or a more viscous medium would deform the cells more";
   if (c.deformation > recommended_deformation.greatest || c.inside < recommended_inside)
-    return "; a wider channel, less flow or a thinner medium would bring more of the cells into the table";
+    return "; a wider channel, a lower flow rate or a less viscous medium would bring more of the cells into the table";
   return {};
 }
 
@@ -58,7 +56,7 @@ std::string percent_text(double fraction) {
 std::string difference_text(double difference) {
   constexpr double large = 2;
   if (difference < large) return percent_text(difference);
-  return fmt::format("{} (an E that is {:.3g} times as great; --difference {:g} is {:g} %)", percent_text(difference),
+  return fmt::format("{} (an E that is {:.3g} times as large; --difference {:g} is {:g} %)", percent_text(difference),
                      1 + difference, difference / 100, difference);
 }
 
@@ -76,8 +74,7 @@ void refuse_all(const PlanOptions& options, const std::vector<PlannedChannel>& c
   throw UserError(fmt::format(
       "rheocyte: cells of {:g} um and {:g} kPa are too stiff to be seen in these channels: their asymmetry is at most "
       "{:.2g} of its noise in one image ({:g} um, {}, {:.3g} ul/s, {:.3g} Pa at the wall). Give a narrower --width-um, "
-      "a "
-      "greater --rate-ul-s or a thicker --medium: {:.2g} times the stress at the wall does.",
+      "a higher --rate-ul-s or a more viscous --medium: {:.2g} times the stress at the wall does.",
       options.radius_um, options.young_modulus_kPa, error_of_noisy_image / stiff->error_by_asymmetry,
       stiff->flow.width_um, stiff->medium, stiff->flow.rate_ul_s, stiff->wall_stress_Pa,
       stiff->error_by_asymmetry / error_of_noisy_image));
@@ -88,8 +85,8 @@ std::vector<std::string> plan_lines(const PlanOptions& options, const Experiment
   const std::string sessions =
       channel.sessions > 0 ? fmt::format("{} sessions", channel.sessions) : "more than 100 sessions";
   std::vector<std::string> lines{
-      fmt::format("{}: {:g} um, {}, {:.3g} ul/s: d {:.3f}, c3 {:.3f}, one image tells E to {:.0f} %, {:.0f} % of the "
-                  "cells inside the table{}.",
+      fmt::format("{}: {:g} um, {}, {:.3g} ul/s: d {:.3f}, c3 {:.3f}, one image determines E within {:.0f} %, {:.0f} % "
+                  "of the cells inside the table{}.",
                   channel.is_recommended ? "recommended"
                                          : "best of these, but d should be 0.01 to 0.03 and 95 % of the cells inside",
                   channel.flow.width_um, channel.medium, channel.flow.rate_ul_s, channel.deformation, channel.mode_3,

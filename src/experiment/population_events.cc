@@ -143,10 +143,9 @@ PopulationEvents read_population_events(const std::filesystem::path& file, const
         "solids with --by odd-deformation; else with --by deformation, if nothing but the flow elongates the cells.");
   if (by == StiffnessMeasure::odd_deformation && !has_outlines &&
       !recording.has_scalar(std::string(stored_inertia_ratio)))
-    refuse_path(
-        file,
-        "has neither contours nor masks nor inertia ratios (inert_ratio_cvx), so nobody knows how elongated its "
-        "cells are; --by deformation fits a population of cells that nothing but the flow elongates.");
+    refuse_path(file,
+                "has neither contours nor masks nor inertia ratios (inert_ratio_cvx), so the elongation of its cells "
+                "is unknown; --by deformation fits a population of cells that nothing but the flow elongates.");
   EventPass pass(recording, report_progress);
   PopulationReader reader(recording, options, by);
   pass.in_blocks(population_block, [&](std::size_t first, std::size_t count) { reader.take(first, count); });

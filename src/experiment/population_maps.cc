@@ -15,7 +15,7 @@ PopulationMaps::PopulationMaps(StiffnessMeasure by, const std::string& table, do
   if (!tables_->elongated(1))
     throw UserError(
         "rheocyte: the table of elongated cells (elongated_*.cbor) that comes with the program is missing; populations "
-        "rest on it. Install the program anew, or name the folder of the tables in RHEOCYTE_TABLES.");
+        "rest on it. Install the program again, or name the folder of the tables in RHEOCYTE_TABLES.");
 }
 
 const ElongatedLiquid& PopulationMaps::liquid(const PopulationEvents& events) const {

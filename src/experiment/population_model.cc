@@ -31,8 +31,8 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
           "rheocyte: --section is for --model cortex and effective; solids have tables of the square channel itself.");
     if (options.outline_noise_um.value_or(0) > 0 && stiffness_measure_of(options) != StiffnessMeasure::asymmetry)
       throw UserError(
-          fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: what it adds is known "
-                      "of whole outlines alone. Leave one of them out.",
+          fmt::format("rheocyte: --outline-noise-um and --by {} contradict each other: its effect is known only for "
+                      "whole outlines. Leave one of them out.",
                       options.by));
     return std::make_unique<SolidPopulations>(options);
   }
@@ -53,8 +53,8 @@ void tell_beyond(RecordingReport& r) {
   const std::size_t beyond = r.beyond.all(), events = r.seen_events();
   if (double(beyond) > worth_a_word * double(events))
     r.warnings.push_back(fmt::format(
-        "{} of {} events ({}) lie beyond the cells of the table, or too near its ends; the population is that of "
-        "all cells as far as {} tells it.",
+        "{} of {} events ({}) lie beyond the cells of the table, or too near its ends; the population is that of all "
+        "cells as far as {} describes it.",
         beyond, events, r.beyond.shares(events),
         r.continued_events > 0 ? "the table, which goes straight on to them," : "the distribution of the others"));
 }

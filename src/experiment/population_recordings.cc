@@ -79,8 +79,8 @@ void check_pairs(const std::vector<PopulationCondition>& conditions) {
   for (const auto& condition : conditions)
     if (condition.recordings.size() != conditions.front().recordings.size())
       throw UserError(fmt::format(
-          "rheocyte: --paired wants equally many recordings of each condition, the first of each being of "
-          "one session and so on, but {} has {} and {} has {}.",
+          "rheocyte: --paired needs equally many recordings of each condition, the first of each from one session and "
+          "so on, but {} has {} and {} has {}.",
           conditions.front().name, conditions.front().recordings.size(), condition.name, condition.recordings.size()));
 }
 

@@ -26,7 +26,7 @@ std::string failure_of(const RecordingReport& r) {
     case FitState::fitted: return {};
     case FitState::too_stiff: return too_stiff_text(r);
     case FitState::singular:
-      return "the events do not tell all parameters of the population apart: the information is singular; more events "
+      return "the events do not determine all parameters of the population: the information is singular; more events "
              "or wider gates help.";
     default:
       return "no most probable population was found: the measure of these events is near the noise of the pixels, or "

@@ -87,9 +87,8 @@ std::vector<std::string> slope_lines(const AxialSummary& s) {
   const auto& [value, error, cells] = s.measured;
   const PredictedSlopes& predicted = s.predicted;
   text += fmt::format(
-      "dc3/dc2, dc4/dc2, dc5/dc2: {:.3f} +- {:.3f}, {:.3f} +- {:.3f}, {:.3f} +- {:.3f}; of cells that differ in "
-      "E + E2D/r0 alone {:.2f}, in the part of the cortex in it {:.2f}, in its tension {:.2f}, in the axial tension "
-      "{:.2f}",
+      "dc3/dc2, dc4/dc2, dc5/dc2: {:.3f} +- {:.3f}, {:.3f} +- {:.3f}, {:.3f} +- {:.3f}; of cells that differ only in E "
+      "+ E2D/r0 {:.2f}, in the part of the cortex in it {:.2f}, in its tension {:.2f}, in the axial tension {:.2f}",
       value[0], error[0], value[1], error[1], value[2], error[2], fmt::join(predicted.by_stiffness, ", "),
       fmt::join(predicted.by_fraction, ", "), fmt::join(predicted.by_ratio, ", "),
       fmt::join(predicted.by_axial_tension, ", "));

@@ -182,7 +182,7 @@ std::string BesideAxis::turn_text() const {
           numbers);
     case Turn::undecided: break;
   }
-  return fmt::format("whether the elongation is stored in the cells cannot be told ({}).", numbers);
+  return fmt::format("whether the elongation is stored in the cells is unknown ({}).", numbers);
 }
 
 std::string BesideAxis::centring_text() const {

@@ -25,8 +25,8 @@ constexpr double same_width = 0.01;  // relative difference of the channels
 const Recording& checked(const Recording& recording) {
   if (!recording.has_scalar("pos_x"))
     refuse_path(recording.file(),
-                "has no pos_x, so nobody knows where along the channel its cells were; Young's modulus and "
-                "viscosity follow from how they change from place to place.");
+                "has no pos_x, so the places of its cells along the channel are unknown; Young's modulus and viscosity "
+                "follow from how they change from place to place.");
   return recording;
 }
 
@@ -206,8 +206,8 @@ double seen_um(const CellImages& images) {
 
 void check_places_seen(const std::vector<CourseCell>& cells) {
   constexpr const char* reason =
-      "One picture of a cell does not tell a stiff cell from one that is viscous and still on its way; how the third "
-      "mode changes along the channel does.";
+      "One picture does not distinguish a stiff cell from a viscous cell that is still deforming; the change of the "
+      "third mode along the channel does.";
   std::vector<double> places;
   bool sees_a_cell_again = false;
   for (const CourseCell& cell : cells) {

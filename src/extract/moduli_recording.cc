@@ -153,7 +153,8 @@ class Fits {
     }
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
-          "no event tells bulk and cortex apart; what is known is E + E2D/r0, of some events perhaps single moduli.");
+          "no event determines bulk and cortex separately; E + E2D/r0 is known, for some events perhaps single "
+          "moduli.");
     return s;
   }
 

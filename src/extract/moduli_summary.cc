@@ -75,7 +75,7 @@ std::string missing_text(const ModuliSummary& s) {
       "only {} of {} fitted events have a stiffness: medians of single cells are those of cells that happen to be in "
       "the table, not of all; report {}.",
       s.with_stiffness(), s.with_stiffness() + missing(s),
-      s.axial.law.is_found ? "E + E2D/r0 of the population alone" : "none of them");
+      s.axial.law.is_found ? "only E + E2D/r0 of the population" : "none of them");
 }
 
 std::string in_one_line(const ModuliSummary& s) {

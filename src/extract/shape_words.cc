@@ -66,8 +66,8 @@ std::string text_on_strangers(const ShapeVerdict& v, const std::string& cells, c
 
 std::string elongated_text(const ShapeVerdict& v) {
   return fmt::format(
-      "E by {} of {} event{} as of cells that the liquid draws out: median {} kPa (quartiles {:.4g} to {:.4g}); "
-      "elongation {}, axial tension {} Pa{}",
+      "E by {} of {} event{} as cells elongated by the liquid: median {} kPa (quartiles {:.4g} to {:.4g}); elongation "
+      "{}, axial tension {} Pa{}",
       v.elongated_by == ElongatedBy::modes ? "the outlines" : "deformation and inertia ratio", v.with_elongation,
       v.with_elongation == 1 ? "" : "s", median_text(v.elongated_kPa), v.elongated_kPa.first_quartile,
       v.elongated_kPa.third_quartile, text_with_errors(v.elongation), text_with_errors(v.axial_tension_Pa),

@@ -21,7 +21,7 @@ class AssembledSystem : public NonlinearSystem {
   VectorXd solve(const VectorXd& rhs) override;
   MatrixXd solve_columns(const MatrixXd& rhs) override;
   void drop_factors() override;
-  /// Tangent times a vector at given unknowns (for tests; assembles anew).
+  /// Tangent times a vector at given unknowns (for tests; assembles again).
   VectorXd apply_tangent(const Media&, const VectorXd& unknowns, const VectorXd& direction);
 
   /// How the linear system is factorised.
@@ -48,8 +48,8 @@ class AssembledSystem : public NonlinearSystem {
     const VectorXd& unknowns;
     Want want;
   };
-  /// Adds residual and, if wanted, tangent of a part, this to the workspace's matrix; gives the least relative det of
-  /// its mesh. For several threads at once.
+  /// Adds residual and, if requested, tangent of a part, this to the workspace's matrix; gives the least relative det
+  /// of its mesh. For several threads at once.
   virtual double add_part(int part, const At&, PartResidual&, PartWorkspace<Scalar>&) const = 0;
 
  private:

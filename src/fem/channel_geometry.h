@@ -37,7 +37,7 @@ class ChannelGeometry {
   double angle(Sector, double along) const;
 
   double radius() const { return radius_; }
-  /// Of the channel that is told of.
+  /// Of the reported channel.
   double half_length() const { return half_length_; }
   /// Where the mesh ends.
   double end() const { return half_length_ + run_out_; }

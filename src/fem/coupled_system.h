@@ -33,7 +33,7 @@ class CoupledSystem : public AssembledSystem<double> {
   CoupledSystem(const Discretisation&, std::vector<ElementUnknowns>);
   /// Becomes that of another discretisation in which the same unknowns couple. The factors stay those of the old one.
   void follow_space(const Discretisation&, std::vector<ElementUnknowns>);
-  /// Residual and, if wanted, tangent of one element that is not empty.
+  /// Residual and, if requested, tangent of one element that is not empty.
   virtual void integrate(int element, const Media&, const VectorXd& unknowns, Want, ElementSystem&) const = 0;
   /// Only for an open inlet.
   virtual InletPressure inlet_pressure(const Media&) const;

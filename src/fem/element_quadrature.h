@@ -88,7 +88,7 @@ constexpr int inputs = Form::template Fields<double>::count;
 template <class Form>
 constexpr int outputs = decltype(std::declval<Form>()(std::declval<typename Form::template Fields<double>>()))::count;
 
-/// Fluxes (points x outputs) and, if wanted, their derivatives (points x outputs*inputs), times the weights.
+/// Fluxes (points x outputs) and, if requested, their derivatives (points x outputs*inputs), times the weights.
 template <class Form, class MakeForm>
 void evaluate_points(const MatrixXd& numbers, const VectorXd& weights, const MakeForm& form_at, Want want,
                      ElementSystem& system) {
@@ -255,8 +255,8 @@ double min_relative_det(const std::vector<PointMap<double, dim>>& undeformed, co
   return least;
 }
 
-/// Residual and, if wanted, tangent of an element from the fields at its quadrature points; `form_at(q)` makes the weak
-/// form at point q.
+/// Residual and, if requested, tangent of an element from the fields at its quadrature points; `form_at(q)` makes the
+/// weak form at point q.
 template <class Form, int dim, class MakeForm>
 void integrate_form(const ElementQuadrature<dim>& quadrature, const MatrixXd& numbers, const MakeForm& form_at,
                     Want want, ElementSystem& system) {

@@ -18,7 +18,8 @@ struct Motion {
   /// Unknowns of a cell that turns, extrapolated to the end of the step: by these its material passes through the mesh
   /// (eq:turning-in-time); empty: it does not.
   VectorXd turning = {};
-  VectorXd turning_branch = {};  ///< the branch's metric, extrapolated likewise, which the material carries along
+  VectorXd turning_branch =
+      {};  ///< the branch's metric, extrapolated in the same way, which the material carries along
 };
 
 }  // namespace rheocyte

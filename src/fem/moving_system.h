@@ -36,7 +36,7 @@ class MovingSystem final : public CoupledSystem {
   Motion motion_;
   ShapeTable<2> ones_;                                      ///< of a column that is constant in space
   std::vector<std::vector<LiquidHistory>> liquid_history_;  ///< by elements and points; empty in the cell
-  std::vector<std::vector<CellHistory<2>>> cell_history_;   ///< likewise; empty in the liquid
+  std::vector<std::vector<CellHistory<2>>> cell_history_;   ///< as above; empty in the liquid
 };
 
 }  // namespace rheocyte

@@ -50,10 +50,10 @@ class NestedLU {
   /// All elements, one subdomain after the other.
   const std::vector<int>& elements() const { return elements_; }
   /// Condenses an element's matrix; once both parts of a subdomain are there, their joining is added to the tasks,
-  /// which may be shared by several threads: the sums have the same order whoever computes them when. Each element has
-  /// to be given once; in the order of `elements` few condensed matrices wait for others. Once `stop` is set, which is
-  /// looked at between the parts of the work, no more is done: then, and after an exception, `drop_factors` has to come
-  /// before a new beginning.
+  /// which may be shared by several threads: the sums have the same order regardless of thread and time. Each element
+  /// has to be given once; in the order of `elements` few condensed matrices wait for others. Once `stop` is set, which
+  /// is looked at between the parts of the work, no more is done: then, and after an exception, `drop_factors` has to
+  /// come before a new beginning.
   void condense(int element, const Matrix& matrix, Tasks&, const std::atomic<bool>* stop = nullptr);
   /// The same at once, with all that can be joined. False once `stop` is set.
   bool condense(int element, const Matrix& matrix, const std::atomic<bool>* stop = nullptr);

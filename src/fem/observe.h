@@ -40,7 +40,7 @@ double least_along(const SurfaceState&, const VectorXd& values);
 /// Greatest relative difference of the surface's meridional stretch between two states.
 double stretch_change(const Discretisation&, const VectorXd& from, const VectorXd& to);
 
-/// The ends of the channel that is told of.
+/// The ends of the reported channel.
 enum class ChannelEnd { upstream, downstream };
 
 /// Mean pressure over the plane across the channel at an end of it, in S; the undisturbed pressure at the cell is zero.

@@ -21,7 +21,7 @@ constexpr double same_chi_squared = 2.7;
 /// What is known before: an error of so many widths of the table's range. Keeps covariances finite.
 constexpr double prior_widths = 3;
 /// Of the wall's shear stress: what is said to be known exactly is known that well. Hundred times as well as a cell
-/// tells the tension, it leaves covariances regular.
+/// gives the tension, it leaves covariances regular.
 constexpr double least_tension_error = 1e-3;
 constexpr std::array all_moduli{Modulus::young, Modulus::cortex, Modulus::tension};
 

@@ -87,7 +87,7 @@ class CombinedMoments : public MomentModel {
   struct SeenNodes {
     NormalNodes nodes;
     Eigen::MatrixXd value;            ///< features by nodes
-    std::vector<Eigen::MatrixXd> by;  ///< its slopes by each parameter, if they are wanted
+    std::vector<Eigen::MatrixXd> by;  ///< its slopes by each parameter, if they are requested
     Eigen::MatrixXd noise;
   };
   /// What nodes change by with each parameter; empty if they stay where they are.

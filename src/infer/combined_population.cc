@@ -25,7 +25,7 @@ ShapeErrors pixels_of(const ShapeVector& measured, const SeenPopulation& seen) {
   return errors_in_pixels(outline_of(measured), seen.pixel_size_um, pictures_of_median, random, seen.outline_noise);
 }
 
-/// Means within the table, but for the radius and the stiffness; spreads above what nobody sees. `axial`: the tension
+/// Means within the table, but for the radius and the stiffness; spreads above what no one sees. `axial`: the tension
 /// over the wall's shear stress, if it is known.
 MomentSettings moment_settings(const CombinedInterpolation& table, const std::optional<double>& axial,
                                const Watch& watch) {
@@ -120,7 +120,8 @@ class CombinedSearch {
   }
 
  private:
-  /// With what the pixels do to the median outline. The gates of the table are told by the cells that are found so.
+  /// With what the pixels do to the median outline. The gates of the table are determined by the cells that are found
+  /// so.
   bool begin() {
     const ShapeErrors of_median_outline = pixels_of(median_.shape, seen_);
     model_.take_pixels(of_median_outline);

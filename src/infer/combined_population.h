@@ -69,12 +69,12 @@ LawOfCells law_of_cells(const CombinedPopulation& population, double wall_stress
 /// Of the ln of measured areas between limits, of which 0 and infinity are none.
 ValueGate log_area_gate(double least_um2, double greatest_um2);
 
-/// Fewer cells tell no population.
+/// Fewer cells determine no population.
 inline constexpr std::size_t fewest_cells_of_population = 20;
 
 /// Of all cells, whichever of them the gates on the measured area keep; beside the given ones the sizes of the table
 /// are such gates, if its cells have the median area. Not found: no cell of the table is like the median one, or the
-/// events do not tell the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
+/// events do not determine the parameters. Shapes in pixels and finite, in flows that differ from the sight's in the
 /// viscosity alone. The order of the cells does not change a digit.
 CombinedPopulation fit_combined_population(const BulkCortexFit& moduli, const SeenPopulation& seen,
                                            std::span<const MeasuredCell> cells, const Watch& watch);

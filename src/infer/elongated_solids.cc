@@ -89,7 +89,7 @@ Smooth smooth_inertia(const SmoothEvents& events, Eigen::Index k, double pixel_s
   return smooth;
 }
 
-/// What is told of one event.
+/// What is reported of one event.
 struct Estimate {
   double modulus = no_value, modulus_error = no_value, axial_ratio = no_value, ratio_error = no_value,
          tension = no_value, tension_error = no_value;  ///< kPa in the measurement's flow; fractions of it

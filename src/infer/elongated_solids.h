@@ -1,4 +1,4 @@
-// Young's modulus of solids that are drawn out along the flow, from area and two numbers of the outline
+// Young's modulus of solids that are elongated along the flow, from area and two numbers of the outline
 // (docs/theory-extract.md, sec. "elongated cells").
 #pragma once
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace rheocyte {
 
-/// What an elongated cell is told by beside its area: the modes c_2 and c_3 of its outline, or where there is no
+/// What an elongated cell is described by beside its area: the modes c_2 and c_3 of its outline, or where there is no
 /// outline its deformation and inertia ratio.
 enum class ElongatedBy { modes, inertia };
 

@@ -143,9 +143,10 @@ IsoelasticityLines read_isoelasticity_lines(const std::filesystem::path& file) {
     by_modulus[rows.modulus_kPa[i]].push_back({rows.size[i], rows.deformation[i]});
   constexpr std::size_t max_number = 200;
   if (by_modulus.size() > max_number)
-    refuse_path(file, fmt::format("holds {} different moduli; it is a look-up table, not a file of lines: give it "
-                                  "with --table.",
-                                  by_modulus.size()));
+    refuse_path(
+        file,
+        fmt::format("contains {} different moduli; it is a look-up table, not a file of lines: give it with --table.",
+                    by_modulus.size()));
   IsoelasticityLines result{rows.identifier, rows.flow, {}};
   for (auto& [modulus, points] : by_modulus) result.lines.push_back({modulus, std::move(points)});
   return result;

@@ -19,7 +19,7 @@ namespace {
 
 TableSpec spec_of(const ModulusMap& map) {
   if (!map.is_rheocyte_table())
-    throw UserError(fmt::format("{}: is a text table itself; its grid would be needed, grid_*.cbor beside it.",
+    throw UserError(fmt::format("{}: is a text table; its grid is needed, grid_*.cbor in the same folder.",
                                 map.origin().identifier));
   return parse_table_spec(map.origin().spec, map.origin().identifier, {});
 }

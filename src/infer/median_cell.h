@@ -16,7 +16,7 @@ struct MedianCell {
 
   std::size_t cells = 0;  ///< that were seen; fewer than `min_cells`: nothing else has a meaning
   Features measured{}, fitted{};
-  Features error{};  ///< standard errors of one image, which tell cells of other kinds from those of the model
+  Features error{};  ///< standard errors of one image, which distinguish cells of other kinds from those of the model
   double young_kPa = no_value, young_error_kPa = no_value;
   double cortex_mN_per_m = no_value, cortex_error_mN_per_m = no_value;
   double tension_mN_per_m = no_value, tension_error_mN_per_m = no_value;

@@ -25,7 +25,7 @@ std::string sentence(const ModuliEstimate& e) {
     return fmt::format("{} = {:.3g} +- {:.2g} {}", name, e.value(m), e.error(m), unit);
   };
   switch (e.status) {
-    case ModuliStatus::no_data: return "There is no shape, or no error of it.";
+    case ModuliStatus::no_data: return "There is no shape, or its error is unknown.";
     case ModuliStatus::outside_table: return "No cell of the table has such a shape.";
     case ModuliStatus::gated: return "The event lies outside the limits that were set.";
     case ModuliStatus::cut: return "The outline touches the edge of the picture: it is not that of the whole cell.";
@@ -42,7 +42,7 @@ std::string sentence(const ModuliEstimate& e) {
   std::string known = fmt::format("E + E2D / r0 = {:.3g} +- {:.2g} kPa", e.stiffness_kPa, e.stiffness_error_kPa);
   if (e.is_known[std::size_t(Modulus::young)]) known += ", " + stated(Modulus::young, "E", "kPa");
   if (e.is_known[std::size_t(Modulus::cortex)]) known += ", " + stated(Modulus::cortex, "E2D", "mN/m");
-  return fmt::format("The data do not tell the moduli apart; what they tell is {}.", known);
+  return fmt::format("The data do not determine the moduli separately; they determine {}.", known);
 }
 
 }  // namespace rheocyte

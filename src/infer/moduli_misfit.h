@@ -37,7 +37,7 @@ class ModuliMisfit {
   Eigen::VectorXd parameters() const;
   CellCoordinates cell_at(const Eigen::VectorXd& parameters) const { return place(parameters).cell; }
 
-  /// With their slopes by the parameters, where they are wanted.
+  /// With their slopes by the parameters, where they are requested.
   Eigen::VectorXd residuals(const Eigen::VectorXd& parameters, Eigen::MatrixXd* slopes = nullptr) const;
 
   /// What the features and the tension tell of a cell, without the fence: J^T J.

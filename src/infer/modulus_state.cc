@@ -17,7 +17,7 @@ std::string_view sentence_of(ModulusState state) {
     case ModulusState::gated: return "The event lies outside the gates.";
     case ModulusState::too_round: return "The cell is flatter along the flow than any cell of the table.";
     case ModulusState::too_elongated: return "The cell is longer along the flow than any cell of the table.";
-    case ModulusState::inertial: return "The liquid's inertia, which the table does not hold, changes this modulus.";
+    case ModulusState::inertial: return "The inertia of the liquid, which the table neglects, changes this modulus.";
     case ModulusState::cut: return "The outline touches the edge of the picture: it is not that of the whole cell.";
   }
   return "";

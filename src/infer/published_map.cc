@@ -68,7 +68,7 @@ PlanePoint with_pixelation(const PlanePoint& cell, double pixel_size_um) {
 
 void refuse_volumes(const PublishedTable& table) {
   if (table.abscissa != Abscissa::area)
-    throw UserError(fmt::format("The table {} holds volumes; recordings and pictures need a table of areas.",
+    throw UserError(fmt::format("The table {} contains volumes; recordings and pictures need a table of areas.",
                                 one_line(table.identifier, 100)));
 }
 

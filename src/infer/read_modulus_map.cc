@@ -25,10 +25,11 @@ fs::path grid_in(const fs::path& folder) {
   const std::string name = one_line(folder.string(), 300);
   if (found.empty())
     throw UserError(
-        fmt::format("{}: this folder holds no grid_*.cbor, which `rheocyte table` writes when a table is "
-                    "complete; give --table the folder of a complete table, or a file.",
+        fmt::format("{}: this folder contains no grid_*.cbor, which `rheocyte table` writes when a table is complete; "
+                    "give --table the folder of a complete table, or a file.",
                     name));
-  if (found.size() > 1) throw UserError(fmt::format("{}: holds several grid_*.cbor; give --table one of them.", name));
+  if (found.size() > 1)
+    throw UserError(fmt::format("{}: contains several grid_*.cbor; give --table one of them.", name));
   return found.begin()->second;
 }
 

@@ -2,8 +2,8 @@
 //
 // Young's modulus of a solid needs area and deformation only, for millions of events in a second: that is the fitted
 // law of measurement/pixel_errors.h. Several moduli need the covariance of all modes, and the shape between solid and
-// shell, of which area and deformation alone tell nothing. Rendering costs about a second for each recording, beside a
-// fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
+// shell, of which area and deformation alone determine nothing. Rendering costs about a second for each recording,
+// beside a fit of milliseconds for each event. For solids both agree (tests/infer/rendered_errors_test.cc).
 #pragma once
 #include <array>
 #include <optional>

@@ -7,8 +7,8 @@
 
 namespace rheocyte {
 
-/// What tells the stiffness beside the area, and what tells the elongation, which is eliminated: c_3 with c_2;
-/// deformation with the inertia ratio; the deformation of cells that nothing but the flow elongates.
+/// What determines the stiffness beside the area, and what determines the elongation, which is eliminated: c_3 with
+/// c_2; deformation with the inertia ratio; the deformation of cells that nothing but the flow elongates.
 enum class StiffnessMeasure { asymmetry, odd_deformation, deformation };
 
 /// Features of an outline without pixels, and through pixels on average.
@@ -23,7 +23,7 @@ SolidFeatures through_pixels(const SolidFeatures& smooth, StiffnessMeasure by, d
 /// Of a cell of the table in a channel that is so many times as large.
 SolidFeatures features_of(const ElongatedState& state, double length_factor);
 
-/// What tells the elongation, and what tells the stiffness.
+/// What determines the elongation, and what determines the stiffness.
 double elongation_of(const SolidFeatures& features, StiffnessMeasure by);
 double measure_of(const SolidFeatures& features, StiffnessMeasure by);
 

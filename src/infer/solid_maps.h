@@ -1,4 +1,4 @@
-// What is measured of solids that are drawn out along the flow, as the estimator of populations wants it
+// What is measured of solids that are elongated along the flow, as the estimator of populations wants it
 // (docs/theory-populations.md, sec. "Forward map"): one map for each elongation that is measured.
 #pragma once
 #include <Eigen/Core>

@@ -18,7 +18,7 @@ struct CourseImage {
   double area_um2 = 0;  ///< without what the pixels do, as mode_3 of a cell that moves towards +x
   double mode_3 = 0;
   double deviation = 0;  ///< standard deviation of mode_3
-  /// What it has beyond that of the table's cell counts as drawn out by the liquid (elongation_law.h); NaN: it has
+  /// What it has beyond that of the table's cell counts as elongated by the liquid (elongation_law.h); NaN: it has
   /// nothing.
   double mode_2 = no_value;
   /// By what mode_3 was divided because the cell flows in a square channel, and not in the tube of the table
@@ -51,7 +51,7 @@ struct CourseEstimate {
   double chi_squared = no_value;
 };
 
-/// No spread of a population is told from a smaller one: standard deviation of a logarithm.
+/// No spread of a population is distinguished from a smaller one: standard deviation of a logarithm.
 inline constexpr double min_spread = 0.05;
 
 /// Normal in ln(E) and ln(viscosity).

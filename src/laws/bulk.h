@@ -12,7 +12,7 @@ struct Bulk {
   double c1_fraction = 0.5;   ///< of the neo-Hookean member in the Mooney-Rivlin law
   double viscosity = 0;       ///< eta1 U / (R S); acts only while the cell moves
   double branch_modulus = 0;  ///< over S, of a spring in series with the viscosity; 0: none, it acts beside the solid
-  double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; likewise
+  double reynolds = 0;        ///< of the cell's density, rho1 U^2 / S; as above
   double rest_stretch = 1;    ///< along x, of the sphere into the spheroid without stress (eq:rest-shape)
   double axial_tension = 0;   ///< of the surroundings along x, over S (eq:axial-tension)
   double stiffening = 1;      ///< b of Fung's law; 0: neo-Hookean

@@ -1,5 +1,6 @@
-// Vectors and tensors of any scalar: double, or a dual number when a derivative is wanted. They are written out because
-// a point has many of them and the compiler would spend most of its time on Eigen's expressions of dual numbers.
+// Vectors and tensors of any scalar: double, or a dual number when a derivative is requested. They are written out
+// because a point has many of them and the compiler would spend most of its time on Eigen's expressions of dual
+// numbers.
 #pragma once
 #include <Eigen/Core>
 #include <array>

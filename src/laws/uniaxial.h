@@ -1,4 +1,4 @@
-// A neo-Hookean sphere that an even stress along an axis draws out.
+// A neo-Hookean sphere that an even stress along an axis elongates.
 #pragma once
 #include <cmath>
 

@@ -25,7 +25,7 @@ inline double last_change(const WallTable& wall) {
   return wall.x.back() + tail * wall.rounding;
 }
 
-/// How far the computed channel goes on beyond the one that is told of: where the wall has slopes, the flow that enters
+/// How far the computed channel goes on beyond the reported one: where the wall has slopes, the flow that enters
 /// and leaves has the shape of that in a straight tube, which it forgets within about the local radius
 /// (docs/theory-time.md, eq:run-out).
 inline double run_out(const WallTable& wall) {

@@ -95,12 +95,11 @@ std::string why_basin_is_not_used(const std::string& json_text) {
   const std::string name = one_line(fmt::format("{} ({})", text_at(definition, "name"), format), 80);
   if (type == "remote")
     return fmt::format(
-        "the basin \"{}\" is not used: it is on a network, from which nothing is read; download the file and refer to "
-        "it, or put its features into the recording.",
+        "the basin \"{}\" is not used: it is on a network, which is not read; download the file and refer to it, or "
+        "put its features into the recording.",
         name);
   return fmt::format(
-      "the basin \"{}\" is not used: basins of this kind are not known here; export the recording with all its "
-      "features "
+      "the basin \"{}\" is not used: basins of this kind are not supported; export the recording with all its features "
       "by the program that wrote it.",
       name);
 }

@@ -29,7 +29,7 @@ struct OutlineFeature {
   double (*value)(const ContourFeatures&);
 };
 
-/// All that an outline tells, in the order of their names.
+/// All features of an outline, in the order of their names.
 std::span<const OutlineFeature> outline_features();
 
 /// Computes features; keeps its memory from contour to contour.

@@ -1,4 +1,4 @@
-// Datasets of numbers: their shapes, and their rows converted to what is wanted.
+// Datasets of numbers: their shapes, and their rows converted to what is requested.
 #pragma once
 #include <cstddef>
 #include <cstdint>

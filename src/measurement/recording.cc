@@ -92,7 +92,7 @@ Recording::Recording(const fs::path& file, Opening& opening) : content_(std::mak
   if (c.events == 0) c.events = usual_length(c.images);
   if (c.events == 0 && c.contours) c.events = number_of_members(c.contours.get());
   open_basins(opening);
-  if (c.events == 0) refuse_path(file, "holds no events.");
+  if (c.events == 0) refuse_path(file, "contains no events.");
   if (double(c.events) > reading_limits.events_per_byte * double(c.bytes_with_basins))
     refuse_path(file, fmt::format("is damaged: it claims {} events, more than its {} bytes can hold.", c.events,
                                   c.bytes_with_basins));
@@ -114,7 +114,7 @@ void Recording::open_feature(const std::string& name) {
       c.remarks.push_back(
           fmt::format("{} is a link to another file, which is not followed, and was left out.", one_line(name, 60)));
     else if (!open_group(c.events_group.get(), name))
-      c.remarks.push_back(fmt::format("{} holds no usable numbers and was left out.", one_line(name, 60)));
+      c.remarks.push_back(fmt::format("{} contains no usable numbers and was left out.", one_line(name, 60)));
     return;
   }
   if (data->shape.extent.size() == 1)

@@ -47,9 +47,8 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
   if (area_from_.empty() || deformation_from_.empty()) {
     std::string remarks;  // perhaps they lie where they were not found
     for (const auto& remark : recording.remarks()) remarks += "; " + remark;
-    throw UserError(
-        fmt::format("{}: has neither {} nor contours nor masks, so there is nothing to tell a modulus from{}", name,
-                    area_from_.empty() ? "area_um" : "deform", remarks.empty() ? "." : remarks));
+    throw UserError(fmt::format("{}: has neither {} nor contours nor masks, so that no modulus can be determined{}",
+                                name, area_from_.empty() ? "area_um" : "deform", remarks.empty() ? "." : remarks));
   }
   if (area_from_ != "area_um" && !(pixel_size_um > 0))
     throw UserError(

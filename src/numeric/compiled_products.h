@@ -1,4 +1,4 @@
-// Products of dense matrices, compiled once. Eigen instantiates its kernels anew for each kind of factors in each
+// Products of dense matrices, compiled once. Eigen instantiates its kernels again for each kind of factors in each
 // source, which took a third of the time to compile the solver. Here its own rule for products (GemmProduct of
 // Eigen 3.4) hands matrices that stand in memory to one function; precompiled with the headers that all sources share.
 #pragma once

@@ -5,7 +5,7 @@
 
 namespace rheocyte {
 
-/// Residuals at x and, where they are wanted, their slopes by x (residuals x numbers).
+/// Residuals at x and, where they are requested, their slopes by x (residuals x numbers).
 using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd& x, Eigen::MatrixXd* slopes)>;
 
 /// Moves x to where |residuals|^2 is least on the way down from it, and returns that: the method of Levenberg and

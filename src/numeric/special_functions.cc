@@ -40,7 +40,7 @@ double scaled_bessel_i(int n, double x) {
   return sum / points;
 }
 
-// K_n(x) = int exp(-x cosh t) cosh(n t) dt over t > 0: the trapezoidal rule converges likewise, with an error of
+// K_n(x) = int exp(-x cosh t) cosh(n t) dt over t > 0: the trapezoidal rule converges in the same way, with an error of
 // exp(-2 pi^2 / (step^2 x)) where x is large.
 double scaled_bessel_k(int n, double x) {
   constexpr double least = 1e-20;

@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What is told of a time of output.
+/// What is reported of a time of output.
 struct SeenFrame {
   ContourFrame contour;
   StateNumbers numbers;

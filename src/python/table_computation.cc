@@ -24,7 +24,7 @@ namespace py = pybind11;
 
 namespace {
 
-// Works on the folder of a table; tells branches that are done and all. Sentences about what could not be made.
+// Works on the folder of a table; reports branches that are done and all. Sentences about what could not be made.
 std::vector<std::string> compute_table(const std::string& text, const std::string& name,
                                        const std::vector<std::string>& settings, const std::filesystem::path& place,
                                        int jobs, const std::optional<std::function<void(double)>>& progress) {
@@ -56,7 +56,7 @@ class TablePieces {
   double fraction_done() const { return static_cast<double>(folder_.done()) / folder_.branches(); }
   bool is_complete() const { return work_.missing().empty(); }
 
-  // Pieces that are missing and that nobody works on, each with the record of the branch from which it goes on. They
+  // Pieces that are missing and that no one works on, each with the record of the branch from which it goes on. They
   // are ours from now on.
   std::vector<std::pair<int, py::bytes>> take() {
     std::vector<std::pair<int, py::bytes>> taken;
@@ -78,7 +78,7 @@ class TablePieces {
     ours_.erase(piece);
   }
 
-  // What was taken and not kept is nobody's again; a traceback may keep this object for long.
+  // What was taken and not kept is no one's again; a traceback may keep this object for long.
   void give_up() { ours_.clear(); }
 
   std::vector<std::string> finish() const { return finish_table(folder_, {}, version); }

@@ -54,7 +54,7 @@ struct Estimates {
   std::span<std::int8_t> state;
 };
 
-/// What tells the viscosity of each event, or of all: itself (mPa s), or the temperature (degC) of a buffer.
+/// What determines the viscosity of each event, or of all: itself (mPa s), or the temperature (degC) of a buffer.
 struct LiquidOfEvents {
   const Buffer* buffer;
   std::span<const double> values;
@@ -152,7 +152,7 @@ void write_texts(const HeldTable& table, const std::string& rows, const std::str
   write_texts_of_map(*table.map, to_path(rows), to_path(lines));
 }
 
-// Its first line tells whether an older file is one of ours.
+// Its first line states whether an older file is one of ours.
 void write_dclab_plugin(const std::string& program, const std::string& file) {
   const py::gil_scoped_release without_interpreter;
   replace_own_file(to_path(file), program + data_of_dclab_plugin(), program.substr(0, program.find('\n')),

@@ -10,19 +10,18 @@ std::vector<ElongationColumn> elongation_columns(ElongatedBy by) {
   const std::string modulus = fmt::format("young_modulus_{}_kPa", by_modes ? "asymmetry" : "inertia");
   std::vector<ElongationColumn> columns{
       {{modulus, "kPa", "E as of an elongated cell",
-        by_modes
-            ? "Young's modulus (kPa) from area, elongation (mode c2) and asymmetry (c3) of the outline, of a solid "
-              "that the liquid draws out, see docs/real-cells.md"
-            : "Young's modulus (kPa) from area, deformation and inertia ratio, of a solid that the liquid draws "
-              "out, see docs/real-cells.md"},
+        by_modes ? "Young's modulus (kPa) from area, elongation (mode c2) and asymmetry (c3) of the outline, of a "
+                   "solid elongated by the liquid, see docs/real-cells.md"
+                 : "Young's modulus (kPa) from area, deformation and inertia ratio, of a solid elongated by the "
+                   "liquid, see docs/real-cells.md"},
        &B::modulus_kPa},
       {{modulus + "_error", "kPa", "Standard error of E as of an elongated cell", "standard error of " + modulus},
        &B::standard_error_kPa},
       {{"elongation", "", "Elongation by the axial tension",
-        "length over width that the liquid's tension alone would give the cell"},
+        "length over width that only the tension of the liquid would give the cell"},
        &B::elongation},
       {{"axial_tension_Pa", "Pa", "Axial tension of the liquid",
-        "tension of the liquid along the flow (Pa) that elongates the cell so"},
+        "tension of the liquid along the flow (Pa) that elongates the cell this much"},
        &B::axial_tension_Pa},
       {{"elongation_error", "", "Standard error of the elongation", "standard error of elongation"},
        &B::elongation_error,

@@ -19,7 +19,7 @@ struct ElongationColumn : ColumnDescription {
   }
 };
 
-/// In their order; the modulus is named by what tells it.
+/// In their order; the modulus is named by what determines it.
 std::vector<ElongationColumn> elongation_columns(ElongatedBy by);
 
 }  // namespace rheocyte

@@ -69,8 +69,8 @@ class Writers {
       if (std::ranges::count(companion_.missing(), role) > 0) roles.append(roles.empty() ? "" : " and ").append(word);
     if (roles.empty()) return {};
     return fmt::format(
-        "the recording uses so many of userdef0 to userdef9 itself that {} of the moduli {} in the table "
-        "of events only.",
+        "the recording already uses so many of userdef0 to userdef9 that {} of the moduli {} only in the table of "
+        "events.",
         roles, roles.find(" and ") == std::string::npos ? "is" : "are");
   }
 

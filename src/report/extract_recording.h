@@ -29,7 +29,7 @@ class ExtractFiles {
   /// Where the companion will stand.
   const std::filesystem::path& place() const { return place_; }
   bool for_ourselves() const { return for_ourselves_; }
-  /// Nothing if no table of events is wanted.
+  /// Nothing if no table of events is requested.
   const std::optional<std::filesystem::path>& events() const { return events_; }
   /// Puts all in their places, unless files that are not ours have come there meanwhile. UserError.
   void publish() { files_.publish(); }

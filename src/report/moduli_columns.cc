@@ -30,7 +30,7 @@ struct NamedModulus {
 };
 const std::array<NamedModulus, modulus_count>& moduli() {
   static const std::array<NamedModulus, modulus_count> all{
-      {{Modulus::young, "young_modulus", "kPa", "E beside a cortex"},
+      {{Modulus::young, "young_modulus", "kPa", "E of the bulk"},
        {Modulus::cortex, "cortex_modulus", "mN_per_m", "Cortex modulus E2D"},
        {Modulus::tension, "tension", "mN_per_m", "Cortex tension"}}};
   return all;
@@ -73,10 +73,10 @@ ColumnsOf<ModuliBlock> estimate_columns() {
          .digits = digits_of_errors},
         of_estimates(&ModuliEstimate::effective_modulus_error_kPa)},
        {{.name = "chi_squared",
-         .sentence = "how far the features are off, in their errors",
+         .sentence = "distance of the features, in units of their errors",
          .digits = digits_of_ratios},
         of_estimates(&ModuliEstimate::chi_squared)},
-       {{.name = "status", .sentence = "what the fit says", .words = words_of_statuses()},
+       {{.name = "status", .sentence = "result of the fit in words", .words = words_of_statuses()},
         of_estimates([](const ModuliEstimate& e) { return int(e.status); })}});
   return columns;
 }

@@ -26,12 +26,12 @@ void add_quartiles_and_interval(ColumnList<ModuliSummary>& list, const Distribut
 Columns<ModuliSummary> moduli_summary_columns() {
   using S = ModuliSummary;
   ColumnList<S> list;
-  list.add({"outline_noise_um", "um", "Errors of the outline", "beside those of the pixels, as given"},
+  list.add({"outline_noise_um", "um", "Errors of the outline", "in addition to those of the pixels, as given"},
            &S::outline_noise_um)
       .add({"gates", "", "Gates", "limits and polygons of the events that count"}, &S::gates)
       .add({"settings_hash", "", "Hash of the settings", "the same for results that are comparable"},
            &S::settings_hash);
-  add_quartiles(list, {"young_modulus", "kPa", "kPa", "E beside a cortex", "Young's modulus of the resolved events"},
+  add_quartiles(list, {"young_modulus", "kPa", "kPa", "E of the bulk", "Young's modulus of the resolved events"},
                 [](const S& s) { return s.young_kPa; });
   add_quartiles(
       list, {"cortex_modulus", "mN_per_m", "mN/m", "Cortex modulus E2D", "the cortex modulus of the resolved events"},
@@ -42,7 +42,8 @@ Columns<ModuliSummary> moduli_summary_columns() {
                              &S::stiffness_kPa, &LawOfCells::stiffness);
   add_quartiles_and_interval(list,
                              {"effective_modulus", "kPa", "kPa", "Effective Young's modulus",
-                              "the Young's modulus of solids that a small tension elongates as much, likewise"},
+                              "the Young's modulus of solids that a small tension elongates as much; of the "
+                              "population, else of all events that have one"},
                              &S::effective_modulus_kPa, &LawOfCells::effective_modulus);
   list.add_with_interval(
           {"axial_tension_Pa", "Pa", "Axial tension of the liquid",
@@ -66,7 +67,7 @@ Columns<MedianCell> median_cell_columns() {
   ColumnList<M> list;
   list.add_count("cells", &M::cells)
       .add({"status", "", "Status", "of the fit"}, [](const M& m) { return name_of(m.status); })
-      .add_with_error({"young_modulus_kPa", "kPa", "E beside a cortex", "Young's modulus"}, &M::young_kPa,
+      .add_with_error({"young_modulus_kPa", "kPa", "E of the bulk", "Young's modulus"}, &M::young_kPa,
                       &M::young_error_kPa)
       .add_with_error({"cortex_modulus_mN_per_m", "mN/m", "Cortex modulus E2D", "of the median cell"},
                       &M::cortex_mN_per_m, &M::cortex_error_mN_per_m)
@@ -76,9 +77,9 @@ Columns<MedianCell> median_cell_columns() {
                       &M::stiffness_error_kPa)
       .add_with_error({"effective_modulus_kPa", "kPa", "Effective Young's modulus", "of the median cell"},
                       &M::effective_modulus_kPa, &M::effective_modulus_error_kPa)
-      .add_with_error({"axial_tension_Pa", "Pa", "Axial tension of the liquid", "by the median cell alone"},
+      .add_with_error({"axial_tension_Pa", "Pa", "Axial tension of the liquid", "from the median cell only"},
                       &M::axial_tension_Pa, &M::axial_tension_error_Pa)
-      .add({"chi_squared", "", "Chi squared", "how far the features are off, in their errors"}, &M::chi_squared)
+      .add({"chi_squared", "", "Chi squared", "distance of the features, in units of their errors"}, &M::chi_squared)
       .add_count("degrees_of_freedom", &M::freedom)
       .add({"at_end_of_table", "", "At the end of the table", "beyond which other cells may fit better"},
            &M::is_at_end);
@@ -121,11 +122,15 @@ Columns<SlopeBetweenCells> slope_columns() {
   ColumnList<S> list;
   list.add({"name", "", "Slope", "dc3/dc2, dc4/dc2 or dc5/dc2, between cells at equal area"}, &S::name)
       .add_with_error({"slope", "", "Measured slope", "between the cells"}, &S::value, &S::error)
-      .add({"by_stiffness", "", "Slope by the stiffness", "of cells that differ in it alone"}, &S::by_stiffness)
-      .add({"by_cortex_fraction", "", "Slope by the fraction of the cortex", "likewise"}, &S::by_cortex_fraction)
-      .add({"by_tension_ratio", "", "Slope by the tension of the cortex", "over its modulus, likewise"},
+      .add({"by_stiffness", "", "Slope by the stiffness", "of cells that differ only in it"}, &S::by_stiffness)
+      .add({"by_cortex_fraction", "", "Slope by the fraction of the cortex",
+            "of cells that differ only in this fraction"},
+           &S::by_cortex_fraction)
+      .add({"by_tension_ratio", "", "Slope by the tension of the cortex",
+            "of cells that differ only in this tension over the modulus of the cortex"},
            &S::by_tension_ratio)
-      .add({"by_axial_tension", "", "Slope by the axial tension", "likewise"}, &S::by_axial_tension);
+      .add({"by_axial_tension", "", "Slope by the axial tension", "of cells that differ only in this tension"},
+           &S::by_axial_tension);
   return std::move(list).columns();
 }
 

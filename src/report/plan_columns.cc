@@ -29,7 +29,7 @@ const Columns<PlannedChannel>& plan_columns() {
         &C::error_by_deformation);
     list.add({.name = "recommended", .is_flag = true}, &C::is_recommended);
     list.add({.name = "sessions",
-              .sentence = "for the wanted power; inf: more than 100, nan: the channel does not show the cells",
+              .sentence = "for the requested power; inf: more than 100, nan: the channel does not show the cells",
               .digits = digits_of_counts},
              [](const C& c) {
                if (c.sessions > 0) return double(c.sessions);

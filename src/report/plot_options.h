@@ -12,7 +12,7 @@ struct PlotOptions {
   std::vector<std::filesystem::path> inputs;
   MeasuringOptions measuring;
   std::string table;               ///< as in ExtractOptions
-  std::optional<Section> section;  ///< likewise
+  std::optional<Section> section;  ///< as above
   std::filesystem::path lines;     ///< a file of isoelasticity lines; empty: lines of the table
   std::vector<double> levels_kPa;  ///< of the lines, in the recording's channel; empty: spread over the picture
   std::string x = "area_um", y = "deform";  ///< features on the axes

@@ -18,12 +18,12 @@ struct PlotPanel {
   std::size_t events = 0;       ///< rows of the recording
   std::size_t gated = 0;        ///< of these, outside the gates
   std::size_t drawable = 0;     ///< of the others, with numbers on both axes
-  bool has_conditions = false;  ///< false if no lines are wanted, or for a recording of the reservoir
+  bool has_conditions = false;  ///< false if no lines are requested, or for a recording of the reservoir
   /// Pixel size 0: nothing is added to the lines. The viscosity is that at the median temperature.
   MeasuringConditions conditions;
   double width_um = 0;           ///< of the channel, 0 if unknown
   std::string sample, measured;  ///< the metadata's name of the sample; channel, flow, viscosity in one line
-  std::string recommended;       ///< recommended_in_short; empty where no lines are wanted
+  std::string recommended;       ///< recommended_in_short; empty where no lines are requested
   std::vector<std::string> warnings;
 
   /// For store/bytes.h.
@@ -47,7 +47,7 @@ bool is_of_the_reservoir(const Recording& recording);
 void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel);
 
 /// Reads a recording block by block and hands on what stands on the two axes, usually area (um^2) and deformation, of
-/// each drawable event. The conditions of the measurement are found, too, where lines are wanted. UserError.
+/// each drawable event. The conditions of the measurement are found, too, where lines are requested. UserError.
 PlotPanel plot_panel(const std::filesystem::path& recording, const PlotOptions& options, LinesWanted lines,
                      const TakePairs& take_pairs, const TellProgress& on_progress);
 

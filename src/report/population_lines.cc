@@ -92,7 +92,7 @@ std::string comparison_line(const ConditionComparison& c, const PopulationReport
     line += fmt::format(" ({:.3f} .. {:.3f}), p = {:.2g} {}", std::exp(d.lower), std::exp(d.upper), d.p, test_text(c));
   else
     line += fmt::format(
-        " ({:.3f} .. {:.3f} by sampling alone); no p, because a single recording does not tell how recordings scatter",
+        " ({:.3f} .. {:.3f} by sampling alone); no p, because a single recording gives no scatter between recordings",
         std::exp(d.sampling_lower), std::exp(d.sampling_upper));
   if (report.between_recordings)
     line += fmt::format("; with a scatter of {:.3g} between recordings ({:.3f} .. {:.3f}), p = {:.2g}",

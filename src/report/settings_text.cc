@@ -75,7 +75,7 @@ Json declared_settings(const Settings& settings) {
 }
 
 void take_settings(const Settings& settings, const Json& given) {
-  if (!given.is_object()) throw UserError("The settings are no object.");
+  if (!given.is_object()) throw UserError("The settings must be an object.");
   for (const auto& [name, value] : given.items()) {
     const auto setting = std::ranges::find(settings, name, &Setting::name);
     if (setting == settings.end()) {

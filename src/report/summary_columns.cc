@@ -64,27 +64,28 @@ void add_words(ColumnList<S>& list) {
 
 void add_settings(ColumnList<S>& list) {
   list.add({"table", "", "Table", "its identifier"}, &S::table)
-      .add({"medium", "", "Medium", "the liquid; empty where a viscosity was given"}, &S::medium)
-      .add({"viscosity_model", "", "Viscosity model", "\"given\" where the viscosity was"}, &S::viscosity_model)
+      .add({"medium", "", "Medium", "the liquid; empty if a viscosity was given"}, &S::medium)
+      .add({"viscosity_model", "", "Viscosity model", "\"given\" if the viscosity was given"}, &S::viscosity_model)
       .add({"viscosity_mean_mPas", "mPa s", "Viscosity, mean", "of the liquid, over the events"},
            &S::mean_viscosity_mPas)
-      .add({"temperature", "", "Temperature", "and where it comes from"}, &S::temperature)
+      .add({"temperature", "", "Temperature", "and its source"}, &S::temperature)
       .add({"channel_width_um", "um", "Channel width", "of the square channel"},
            [](const S& s) { return s.conditions.flow.width_um; })
       .add({"flow_rate_ul_per_s", "ul/s", "Flow rate", "sample and sheath together"},
            [](const S& s) { return s.conditions.flow.rate_ul_s; })
-      .add({"pixelation_pixel_size_um", "um", "Pixel size", "for which was corrected; 0: no correction"},
+      .add({"pixelation_pixel_size_um", "um", "Pixel size", "corrected for; 0: no correction"},
            [](const S& s) { return s.conditions.pixel_size_um; })
       .add({"corrected_for_pixels", "", "Corrected for pixels", "which features are"}, &S::corrected)
       .add({"gates", "", "Gates", "limits and polygons of the events that count"}, &S::gates)
       .add({"area_from", "", "Area from", "the stored feature, or contours or masks"}, &S::area_from)
-      .add({"deformation_from", "", "Deformation from", "likewise"}, &S::deformation_from)
+      .add({"deformation_from", "", "Deformation from", "the stored feature, or contours or masks"},
+           &S::deformation_from)
       .add({"settings_hash", "", "Hash of the settings", "the same for results that are comparable"}, &S::settings_hash)
-      .add({"sample", "", "Sample", "as the recording says"}, [](const S& s) { return s.labels.sample; })
-      .add({"date", "", "Date", "as the recording says"}, [](const S& s) { return s.labels.date; })
-      .add({"time", "", "Time", "as the recording says"}, [](const S& s) { return s.labels.time; })
-      .add({"run_index", "", "Run index", "as the recording says"}, [](const S& s) { return s.labels.run_index; })
-      .add({"chip", "", "Chip", "as the recording says"}, [](const S& s) { return s.labels.chip; })
+      .add({"sample", "", "Sample", "from the metadata"}, [](const S& s) { return s.labels.sample; })
+      .add({"date", "", "Date", "from the metadata"}, [](const S& s) { return s.labels.date; })
+      .add({"time", "", "Time", "from the metadata"}, [](const S& s) { return s.labels.time; })
+      .add({"run_index", "", "Run index", "from the metadata"}, [](const S& s) { return s.labels.run_index; })
+      .add({"chip", "", "Chip", "from the metadata"}, [](const S& s) { return s.labels.chip; })
       .add({"remarks", "", "Remarks", "all in sentences"}, [](const S& s) { return all_of(s.warnings); });
 }
 

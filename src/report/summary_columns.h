@@ -1,4 +1,4 @@
-// What is told of each recording, in the order of the summary table: for this table and for the view.
+// What is reported of each recording, in the order of the summary table: for this table and for the view.
 #pragma once
 #include "extract/extract_summary.h"
 #include "report/column.h"

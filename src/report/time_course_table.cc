@@ -66,7 +66,7 @@ std::string with_interval(const Credible& value, std::string_view unit) {
 }
 
 constexpr std::string_view no_thinning_text =
-    "the liquid thins with shear otherwise than that of the table, and no table of it has the solids of this one: the "
+    "the liquid is not shear-thinning as that of the table, and no table of it has the solids of this one: the "
     "viscosity at the wall stands for both, and moduli are off by up to 5 %, those of large cells most.";
 
 std::string status_of(const CourseEstimate& estimate) {
@@ -100,8 +100,8 @@ void CourseTable::add(const CourseEvents& events, const std::string& name, doubl
     const auto differs = [](double one, double other) { return std::abs(one / other - 1) > flow_tolerance; };
     if (differs(events.flow.rate_ul_s, first.rate_ul_s) || differs(events.flow.viscosity_mPas, first.viscosity_mPas))
       throw UserError(
-          fmt::format("{}: has {:.4g} ul/s and {:.4g} mPa s, the recordings before {:.4g} and {:.4g}; "
-                      "recordings of one population must be of one flow, take them one by one.",
+          fmt::format("{}: has {:.4g} ul/s and {:.4g} mPa s, the recordings before {:.4g} and {:.4g}; recordings of "
+                      "one population must have the same flow rate and viscosity. Analyse these one by one.",
                       name, events.flow.rate_ul_s, events.flow.viscosity_mPas, first.rate_ul_s, first.viscosity_mPas));
   }
   std::optional<SquareCourse> stationary;
@@ -156,7 +156,7 @@ std::string CourseTable::section_text(const std::vector<CellImages>& cells) cons
   return fmt::format(
       "{}: c3 was divided by {:.3f} (mean), as {} says of stationary solids; what may be left, {:.1f} % of E and "
       "{:.1f} % of the viscosity, is in the intervals",
-      is_of_square() ? "the liquid thins with shear otherwise than that of the table"
+      is_of_square() ? "the liquid is not shear-thinning as that of the table"
                      : "the channel is square, and the table one of the tube of equal pressure drop",
       factor, square_table_, 100 * errors.modulus, 100 * errors.viscosity);
 }
@@ -171,7 +171,7 @@ std::string CourseTable::elongation_text(const CourseReport& report) const {
   const PopulationEstimate& p = report.population;
   const Physical in = physical(table_, rows_.front().flow);
   for (const CourseRow& row : report.rows) take(row.drawn_out);
-  // Of cells that were seen once the population tells what they are.
+  // Of cells that were seen once the population determines what they are.
   if (report.rows.empty())
     for (const Row& row : rows_)
       take(TimeCourse(table_).drawn_out(
@@ -181,8 +181,8 @@ std::string CourseTable::elongation_text(const CourseReport& report) const {
   if (!(beyond.value > worth_a_word)) return {};
   return fmt::format(
       "the cells are elongated along the flow (c2 {:.4f} +- {:.4f} beyond that of the table's cells, median): c3 was "
-      "multiplied by {:.3f} +- {:.3f} (median), as if a tension of the liquid that does not change along the channel "
-      "drew out solids; of cells with a cortex (flat rear, straight flanks) E and viscosity mean little, see "
+      "multiplied by {:.3f} +- {:.3f} (median), as for solids elongated by a tension of the liquid that is constant "
+      "along the channel; for cells with a cortex (flat rear, straight flanks) E and viscosity mean little, see "
       "`rheocyte extract`",
       beyond.value, beyond.error, multiplied.value, multiplied.error);
 }
@@ -214,8 +214,8 @@ void CourseTable::check_places(const std::vector<CourseCell>& cells) const {
   if (!is_seen_again && inside < outside_places_) {
     const double length = rows_.empty() ? 1 : physical(table_, rows_.front().flow).length;
     throw UserError(
-        fmt::format("rheocyte: {} of {} events do not lie {:.3g} to {:.3g} um behind the end of the contraction, where "
-                    "the dynamic table {} has cells; is --contraction-um right?",
+        fmt::format("rheocyte: {} of {} events do not lie {:.3g} to {:.3g} um downstream of the end of the "
+                    "contraction, where the dynamic table {} has cells; is --contraction-um right?",
                     outside_places_, inside + outside_places_, table_.spec().first_um * length,
                     table_.spec().last_um * length, table_.spec().identifier));
   }

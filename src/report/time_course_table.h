@@ -1,4 +1,4 @@
-// What is told of the cells that recordings saw along a channel, and of their population.
+// What is reported of the cells that recordings saw along a channel, and of their population.
 #pragma once
 #include <functional>
 #include <string>

@@ -55,12 +55,12 @@ Columns<V> elongation_summary_columns() {
       .add(verdict_number("deformation_over_elongated_modulus", "", "E from deformation over E as of an elongated cell",
                           "median of E from area and deformation over that by the table of elongated cells"),
            &V::modulus_ratio)
-      .add_with_errors(verdict_number("elongation_median", "", "Elongation by the axial tension, median",
-                                      "length over width that the liquid's tension alone would give the median cell"),
-                       verdict_value(&V::elongation), verdict_error(&V::elongation),
-                       verdict_common_error(&V::elongation))
+      .add_with_errors(
+          verdict_number("elongation_median", "", "Elongation by the axial tension, median",
+                         "length over width that only the tension of the liquid would give the median cell"),
+          verdict_value(&V::elongation), verdict_error(&V::elongation), verdict_common_error(&V::elongation))
       .add_with_errors(verdict_number("axial_tension_median_Pa", "Pa", "Axial tension of the liquid, median",
-                                      "tension of the liquid along the flow that elongates the cells so"),
+                                      "tension of the liquid along the flow that elongates the cells this much"),
                        verdict_value(&V::axial_tension_Pa), verdict_error(&V::axial_tension_Pa),
                        verdict_common_error(&V::axial_tension_Pa))
       .add(verdict_number(
@@ -77,7 +77,7 @@ Columns<V> verdict_columns() {
   list.add(verdict_word("shapes", "Shapes",
                         "\"model\", \"other-table\", \"doubtful\", \"elongated\", \"rounder\" or \"unknown\""),
            fit_word)
-      .add(verdict_word("shapes_of_model", "Cells of the table", "of which cells the table is"), &V::model)
+      .add(verdict_word("shapes_of_model", "Cells of the table", "kind of cells of the table"), &V::model)
       .add(
           verdict_word("fitting_table", "Fitting table", "another table, whose cells have the shapes of the recording"),
           [](const V& v) { return v.other.identifier; })

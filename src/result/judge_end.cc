@@ -17,7 +17,7 @@ namespace rheocyte {
 namespace {
 
 constexpr double fraction_of_time = 0.1, fraction_of_distance = 0.1;
-/// Of the accuracy that is wanted of the run, what the stationary shape that it is compared with may be off.
+/// Of the accuracy that is requested of the run, what the stationary shape that it is compared with may be off.
 constexpr double fraction_of_stationary = 0.1;
 
 TimeEnd end_of(const TimeRecord& record, const Result& result) {
@@ -53,8 +53,8 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
     const double here = unstable.measure("least_tension_mN_per_m");
     const bool collapses = bends || (surface_kind(problem) == SurfaceKind::membrane && here > 0);
     return fmt::format(
-        " On the way the {}, which the model does not follow (stability_margin {:.2g}, least tension "
-        "{:.3g} mN/m, {}).",
+        " On the way the {}, which the model does not follow (stability_margin {:.2g}, smallest tension {:.3g} mN/m, "
+        "{}).",
         collapses ? "cortex had lost its resistance to compression"
                   : "surface was beyond its limit against short wrinkles",
         margin, here, when(unstable));
@@ -63,8 +63,9 @@ std::string told_of_surface(const TimeRecord& record, const Problem& problem) {
                             return std::abs(row.measure("least_tension_mN_per_m"));
                           }).measure("least_tension_mN_per_m");
   if (tension >= -fraction_of_rounding * std::abs(greatest)) return "";
-  return fmt::format(" On the way the surface was compressed (least tension {:.3g} mN/m, {}); {} it against wrinkles.",
-                     tension, when(slack), bends ? "its bending stiffness holds" : "the interior holds");
+  return fmt::format(
+      " On the way the surface was compressed (smallest tension {:.3g} mN/m, {}); {} it against wrinkles.", tension,
+      when(slack), bends ? "its bending stiffness holds" : "the interior holds");
 }
 
 /// Of a duct, whose inertia is left out: its Reynolds number, which the state gets, by the greater of the densities.
@@ -155,7 +156,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
     const bool seems_settled = !failed && (record.end == TimeEnd::settled || has_settled(record, 0, problem.accuracy));
     outcome.message += fmt::format(" There is no stationary shape of this cell ({}){}", name(there),
                                    failed          ? "."
-                                   : seems_settled ? ": what seems to settle is held by the mesh."
+                                   : seems_settled ? ": what seems to settle is stabilised by the mesh."
                                                    : ": it has not settled, and will not.");
     if (seems_settled) outcome.status = there;
     return;
@@ -176,7 +177,7 @@ void compare_with_stationary(Result& result, TimeRecord& record, const Problem& 
   outcome.message += told(stationary.shape.deformation, distance, settled);
 }
 
-/// Whether the run to compare with failed and nothing else tells the error.
+/// Whether the run to compare with failed and nothing else gives the error.
 bool is_error_unknown(const StationaryState& state) {
   const bool has_failed = state.comparison != Status::not_started && state.comparison != Status::converged &&
                           state.comparison != Status::stopped;
@@ -217,10 +218,10 @@ void judge(Result& result) {
   if (status == outcome.status) return;
   outcome.status = status;
   if (status == Status::surface_unstable)
-    outcome.message += " It is so at the end, too; " + ways_to_stability(surface_kind(result.problem), true);
+    outcome.message += " It is also so at the end; " + ways_to_stability(surface_kind(result.problem), true);
   else if (is_unknown)
     outcome.message +=
-        fmt::format(" Whether it is within the wanted {:.1e} (time.mesh_accuracy) cannot be said.", wanted);
+        fmt::format(" Whether it is within the requested {:.1e} (time.mesh_accuracy) is unknown.", wanted);
   else
     outcome.message += fmt::format(" The mesh makes an error of {:.1e}, and {:.1e} is requested; {}", error, wanted,
                                    ways_to_mesh_accuracy(result.problem, state));

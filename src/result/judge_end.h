@@ -14,7 +14,7 @@ namespace rheocyte {
 void judge_end(Result&, TimeRecord&, const WorkLimits&);
 
 /// Whether so far (relative) from the stationary deformation nothing changes any more: over the last tenth of the time,
-/// or a longer step, the deformation has changed by less than a tenth of the distance, or by less than the wanted
+/// or a longer step, the deformation has changed by less than a tenth of the distance, or by less than the requested
 /// accuracy.
 bool has_settled(const TimeRecord&, double distance, double accuracy);
 

@@ -31,7 +31,7 @@ struct Result {
 /// Solver's results are not trusted blindly: a converged state with a number that is not finite becomes `not_finite`.
 void refuse_unfinite_numbers(Result&);
 
-/// Of the wanted cell (analytic/effective_modulus.h).
+/// Of the requested cell (analytic/effective_modulus.h).
 double effective_modulus_kPa(const Result&);
 
 /// The content of result.json. Numbers that are not finite are null; the status then is not "converged".

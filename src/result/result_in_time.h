@@ -1,4 +1,4 @@
-// The end of a computation in time as result.json tells it, and what a case asks for in time.
+// The end of a computation in time as result.json contains it, and what a case asks for in time.
 #pragma once
 #include "result/result.h"
 #include "result/time_record.h"

@@ -23,7 +23,7 @@ constexpr const char* compiler = "Clang " __clang_version__;
 constexpr const char* compiler = "GCC " __VERSION__;
 #endif
 
-// A modulus on the way to the wanted one; null if there is none or the cell is rigid.
+// A modulus on the way to the requested one; null if there is none or the cell is rigid.
 Json over(const std::optional<double>& modulus, double compliance) {
   return modulus && compliance > 0 ? Json(*modulus / compliance) : Json(nullptr);
 }
@@ -67,24 +67,23 @@ std::span<const Field<Result, Json>> outcome_fields() {
       {"program", "always rheocyte", [](const Result&) -> Json { return "rheocyte"; }},
       {"version", "of the program", [](const Result&) -> Json { return version; }},
       {"status",
-       "\"converged\": the last state is the wanted one, its stability_margin is not negative, its estimated_error not "
-       "above what the case wants; else the name of the reason why not. \"error-unknown\": the last state is the "
-       "wanted "
-       "one, but a signal stopped the computation of its error",
+       "\"converged\": the last state is the requested one, its stability_margin is not negative, its estimated_error "
+       "not above the accuracy of the case; else the name of the reason why not. \"error-unknown\": the last state is "
+       "the requested one, but a signal stopped the computation of its error",
        [](const Result& r) -> Json { return name(r.state.outcome.status); }},
       {"message", "the same in a sentence: what, where, what to try",
        [](const Result& r) -> Json { return r.state.outcome.message; }},
-      {"reached", "wanted moduli over those of the state; below 1: the last state on the way to the wanted one",
+      {"reached", "requested moduli over those of the state; below 1: the last state on the way to the requested one",
        [](const Result& r) -> Json { return r.state.outcome.reached; }},
       {"young_modulus_reached_kPa", "Young's modulus of the state; null without an elastic interior",
        [](const Result& r) { return over(r.input.cell.bulk.young_modulus_kPa, r.state.outcome.reached); }},
       {"cortex_modulus_reached_mN_per_m", "modulus of its cortex; null without an elastic cortex",
        [](const Result& r) { return over(r.input.cell.cortex.modulus_mN_per_m, r.state.outcome.reached); }},
-      {"tension_mN_per_m", "wanted surface tension of the cell, given or a fraction of the cortex modulus",
+      {"tension_mN_per_m", "requested surface tension of the cell, given or a fraction of the cortex modulus",
        [](const Result& r) -> Json { return tension_mN_per_m(r.input); }},
       {"effective_modulus_kPa",
-       "Young's modulus of the homogeneous solid that a small axial tension elongates as much as the wanted cell, with "
-       "its bulk, its cortex, its surface tension and its bending stiffness (docs/theory-analytic.md, "
+       "Young's modulus of the homogeneous solid that a small axial tension elongates as much as the requested cell, "
+       "with its bulk, its cortex, its surface tension and its bending stiffness (docs/theory-analytic.md, "
        "eq:effective-modulus); null for a cell with a rest_aspect",
        [](const Result& r) -> Json { return effective_modulus_kPa(r); }}};
   return fields;
@@ -98,14 +97,14 @@ std::span<const Field<Result, Json>> computation_fields() {
       {"residual", "of the last Newton iteration, relative to the driving forces",
        [](const Result& r) -> Json { return r.state.residual; }},
       {"estimated_error",
-       "of the deformation, relative to it or to deformation_floor where that is more; of the motion with "
+       "of the deformation, relative to it or to deformation_floor where that is larger; of the motion with "
        "numerics.accuracy_of = \"motion\"; null for a state on the way; in time the distance from the stationary shape "
        "once the cell has settled, else from the same run with other steps and on another mesh",
        [](const Result& r) -> Json { return r.state.estimated_error; }},
       {"deformation_floor",
-       "errors of smaller deformations are relative to this one: 1e-12 over the wanted accuracy on the axis "
-       "(rounding), "
-       "1e-4 off the axis (no recording tells less), time.accuracy over time.mesh_accuracy in time, at most 0.01",
+       "errors of smaller deformations are relative to this one: 1e-12 over the requested accuracy on the axis "
+       "(rounding), 1e-4 off the axis (below the resolution of recordings), time.accuracy over time.mesh_accuracy in "
+       "time, at most 0.01",
        [](const Result& r) -> Json { return r.state.deformation_floor; }},
       {"errors",
        "estimated errors of the measures above, absolute, each under the name and in the unit of its measure; null for "
@@ -130,11 +129,11 @@ std::span<const Field<Result, Json>> computation_fields() {
 
 std::span<const Field<StepOfResult, Json>> branch_fields() {
   static constexpr BranchKey fields[] = {
-      {"compliance", "wanted modulus over that of the step: 0 is rigid, 1 the wanted state",
+      {"compliance", "requested modulus over that of the step: 0 is rigid, 1 the requested state",
        [](const StepOfResult& s) -> Json { return s.step.compliance; }},
       {"young_modulus_kPa", "Young's modulus of the step; null: rigid, or there is none",
        [](const StepOfResult& s) { return over(s.result.input.cell.bulk.young_modulus_kPa, s.step.compliance); }},
-      {"cortex_modulus_mN_per_m", "modulus of its cortex, likewise",
+      {"cortex_modulus_mN_per_m", "modulus of its cortex in the same step; null: rigid, or there is none",
        [](const StepOfResult& s) { return over(s.result.input.cell.cortex.modulus_mN_per_m, s.step.compliance); }},
       {"deformation", "as above", [](const StepOfResult& s) -> Json { return s.step.deformation; }},
       {"newton_iterations", "of the step", [](const StepOfResult& s) -> Json { return s.step.newton_iterations; }},
@@ -152,7 +151,7 @@ std::span<const Field<SolveStatistics, Json>> statistics_fields() {
       {"continuation_steps", "steps in stiffness, or in time", [](const S& s) -> Json { return s.continuation_steps; }},
       {"assembly_s", "time for integrals over elements, added over the threads",
        [](const S& s) -> Json { return s.assembly_s; }},
-      {"factorisation_s", "time for factorisations, those inside of elements included, likewise added",
+      {"factorisation_s", "time for factorisations, those within elements included, added over the threads",
        [](const S& s) -> Json { return s.factorisation_s; }},
       {"substitution_s", "time for solutions with the factors", [](const S& s) -> Json { return s.substitution_s; }},
       {"total_s", "as wall_time_s", [](const S& s) -> Json { return s.total_s; }}};

@@ -97,7 +97,7 @@ std::string effective_modulus_line(const Result& result) {
               "of a solid that a small tension elongates as much");
 }
 
-/// What the estimated error is relative to, and which one is wanted.
+/// What the estimated error is relative to, and which one is requested.
 std::string error_remark(const Result& result) {
   const Case& input = result.input;
   const bool in_time = input.time.scheme != TimeScheme::stationary;
@@ -107,7 +107,7 @@ std::string error_remark(const Result& result) {
     remark = "of velocity, drift and rotation";
   else if (result.state.shape.deformation < result.state.deformation_floor)
     remark = fmt::format("of a deformation of {:.1e}", result.state.deformation_floor);
-  return wanted ? fmt::format("{}, wanted {:.1e}", remark, *wanted) : remark;
+  return wanted ? fmt::format("{}, requested {:.1e}", remark, *wanted) : remark;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ std::span<const Field<ProfilePoint>> contour_fields() {
        [](const P& p) { return p.surface.stretch(p.row, 1); }},
       {"tension_meridional_mN_per_m", "Cauchy tension of the surface, surface tension included",
        [](const P& p) { return p.surface.tension(p.row, 0); }},
-      {"tension_hoop_mN_per_m", "likewise, round the axis", [](const P& p) { return p.surface.tension(p.row, 1); }},
+      {"tension_hoop_mN_per_m", "the same round the axis", [](const P& p) { return p.surface.tension(p.row, 1); }},
       {"curvature_meridional_per_um", "positive where the contour is convex",
        [](const P& p) { return p.surface.curvature(p.row, 0); }},
       {"curvature_hoop_per_um", "round the axis", [](const P& p) { return p.surface.curvature(p.row, 1); }}};

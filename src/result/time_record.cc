@@ -65,7 +65,7 @@ std::span<const Field<HistoryRow>> history_fields() {
       {"refused_steps", "larger steps that were tried before it", [](const HistoryRow& r) { return r.refused_steps; }},
       {"position_um", "of the cell along the channel, from its start",
        [](const HistoryRow& r) { return r.position_um; }},
-      {"velocity_m_per_s", "older name of cell_velocity_m_per_s; ends with the next version",
+      {"velocity_m_per_s", "former name of cell_velocity_m_per_s; removed in the next version",
        [](const HistoryRow& r) { return r.measure("cell_velocity_m_per_s"); }}};
   return fields;
 }
@@ -77,21 +77,20 @@ std::span<const Field<TimeRecord, Json>> time_fields() {
       {"t_us", "time that was reached", [](const TimeRecord& r) -> Json { return r.rows.back().t_us; }},
       {"position_um", "place that was reached, from the start of the cell",
        [](const TimeRecord& r) -> Json { return place_reached(r.rows); }},
-      {"ended_by", "time, place: what the case asks for; settled: nothing came any more; failure: see status",
+      {"ended_by", "time, place: as given in the case; settled: nothing changed any more; failure: see status",
        [](const TimeRecord& r) -> Json { return name(r.end); }},
       {"comparison",
-       "how the same run with other steps and on another mesh ended, which tells the errors: converged, or why not; "
-       "null: "
-       "there was none",
+       "how the same run with other steps and on another mesh ended, which gives the errors: converged, or why not; "
+       "null: there was none",
        [](const TimeRecord& r) -> Json {
          return r.comparison == Status::not_started ? Json() : Json(rheocyte::name(r.comparison));
        }},
       {"least_tension_mN_per_m",
-       "least meridional tension of the surface on the way; a shell wrinkles where it is negative",
+       "minimum meridional tension of the surface on the way; a shell wrinkles where it is negative",
        [](const TimeRecord& r) -> Json { return least_tension(r.rows); }},
       {"steps", "steps in time", [](const TimeRecord& r) -> Json { return r.rows.size() - 1; }},
       {"frames", "contours and files of fields", [](const TimeRecord& r) -> Json { return r.frames.size(); }},
-      {"greatest_relative_volume_change", "greatest magnitude on the way",
+      {"greatest_relative_volume_change", "maximum magnitude on the way",
        [](const TimeRecord& r) -> Json { return volume_change(most_changed(r.rows)); }},
       {"stationary_deformation",
        "of the same cell, with a mesh chosen for its accuracy; null if there is no such shape, or a contraction",

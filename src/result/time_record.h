@@ -62,7 +62,7 @@ struct TimeRecord {
   }
 };
 
-/// Places in history_measures of those that are columns: some are told of ducts alone.
+/// Places in history_measures of those that are columns: some are reported of ducts alone.
 std::vector<std::size_t> known_measures(const std::vector<HistoryRow>&);
 
 /// The row of the least meridional tension of the surface; there must be a row.
@@ -89,7 +89,7 @@ std::string outputs_csv(const TimeRecord&);
 std::string history_errors_csv(const TimeRecord&);
 std::string outputs_errors_csv(const TimeRecord&);
 
-/// What result.json tells of the way, under "time"; there must be a row.
+/// What result.json contains of the way, under "time"; there must be a row.
 std::span<const Field<TimeRecord, nlohmann::ordered_json>> time_fields();
 
 /// contours.csv: t_us, x_um, r_um; the frames one after another.

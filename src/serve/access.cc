@@ -82,7 +82,7 @@ std::optional<Answer> Access::refusal_of_names(const Credentials& who) const {
   for (const std::string& origin : who.origins) {
     constexpr std::string_view scheme = "http://";
     if (!origin.starts_with(scheme) || !is_ours(std::string_view(origin).substr(scheme.size()), who.local_address))
-      return refusal(403, "origin", "Pages of other places may not ask this server.");
+      return refusal(403, "origin", "Pages of other sites may not use this server.");
   }
   return std::nullopt;
 }

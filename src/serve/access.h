@@ -1,4 +1,4 @@
-// Who may ask: whoever knows the token and talks to this server by its own name (docs/view.md, sec. access).
+// Who may ask: anyone who knows the token and talks to this server by its own name (docs/view.md, sec. access).
 #pragma once
 #include <functional>
 #include <optional>
@@ -18,7 +18,8 @@ struct Credentials {
   std::vector<std::string> hosts, origins;  ///< the headers of these names
   std::string authorization, cookie;
   std::string local_address;  ///< at which the connection was accepted: "127.0.0.1"
-  /// Whether a program of the user who runs this server has sent it, as far as the system tells. Nothing: it does not.
+  /// Whether a program of the user who runs this server has sent it, as far as the system reports. Nothing: it does
+  /// not.
   std::function<bool()> is_of_own_user = {};
 };
 

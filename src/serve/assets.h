@@ -19,7 +19,7 @@ class Assets {
 
   bool empty() const { return files_.empty(); }
   bool has(std::string_view path) const;
-  /// The file of a path ("/" is index.html), compressed for those who take that, 304 for whoever has it already. The
+  /// The file of a path ("/" is index.html), compressed for those who take that, 304 for those who have it already. The
   /// path must be there, or "/".
   Answer answer(std::string_view path, bool takes_gzip, std::string_view known_tag) const;
 

@@ -12,7 +12,7 @@ struct PictureSize {
   std::size_t width, height;
 };
 
-/// A PNG of 8 bit grey. The pixels, row by row, are stored as they are: nobody waits for the few kilobytes that a
+/// A PNG of 8 bit grey. The pixels, row by row, are stored as they are: no one waits for the few kilobytes that a
 /// compression would save on the way within one machine.
 std::string grey_png(const PictureSize& size, std::span<const std::uint8_t> pixels);
 

@@ -33,10 +33,10 @@ struct Request {
   Names parts = {};    ///< of the path, by the names in the braces of its pattern
   Names query = {};
   std::string body = {};           ///< no longer than the route allows
-  const Client* client = nullptr;  ///< while the answer is made; nobody in some tests
+  const Client* client = nullptr;  ///< while the answer is made; no one in some tests
 
   bool client_has_left() const { return client && client->has_left(); }
-  /// Of whoever computes for the client.
+  /// Of the thread that computes for the client.
   Watch watch() const {
     return {.stop = [client = client] { return client && client->has_left(); }};
   }
@@ -60,7 +60,7 @@ struct Answer {
   std::function<void(const TakePiece&)> give_pieces = {};
 };
 
-/// A request that is answered with an error: thrown by whoever finds out, told by the server as
+/// A request that is answered with an error: thrown where it is found, sent by the server as
 /// {"error": sentence, "reason": word}. A UserError becomes 400 with the reason "input".
 class Refused : public std::runtime_error {
  public:

@@ -32,8 +32,8 @@ std::size_t most_connections() {
   const std::string host = one_line(place.host, 80);
   if (error == boost::asio::error::access_denied)
     throw UserError(
-        fmt::format("rheocyte view: port {} is for the administrator of this machine alone; give one above "
-                    "1023 with --port, or none for any that is free.",
+        fmt::format("rheocyte view: port {} is reserved for the administrator of this machine; give one above 1023 "
+                    "with --port, or none for any that is free.",
                     place.port));
   if (error == boost::asio::error::address_in_use)
     throw UserError(
@@ -112,7 +112,7 @@ class HttpServer::Inside {
     std::make_shared<Connection>(std::move(socket), shared_)->begin();
   }
 
-  /// Whoever was refused gives its place, or else whoever has been silent for longest.
+  /// A refused connection gives its place, or else the one that has been silent for longest.
   bool make_room() {
     const auto found = std::ranges::find_if(shared_.open, &Connection::is_dispensable);
     if (found == shared_.open.end()) return false;

@@ -29,7 +29,8 @@ class HttpServer {
   int port() const;
   /// Answers until stop() is called by another thread.
   void run();
-  /// Ends run() after a moment: connections are closed, and whoever computes for one finds that its client has left.
+  /// Ends run() after a moment: connections are closed, and the thread that computes for one finds that its client has
+  /// left.
   void stop();
 
  private:

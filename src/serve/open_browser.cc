@@ -40,7 +40,7 @@ StartedBrowser::StartedBrowser(const std::string& address) : child_(start_alone(
 
 bool StartedBrowser::has_just_failed() {
   int status = 0;
-  // Some browsers stay in the foreground: only the end of the process tells how it went.
+  // Some browsers stay in the foreground: only the end of the process shows how it went.
   if (child_ > 0 && ::waitpid(child_, &status, WNOHANG) == child_) {
     child_ = -1;
     has_failed_ = !WIFEXITED(status) || WEXITSTATUS(status) != 0;

@@ -27,7 +27,7 @@ class Router {
   /// For example: add("GET", "/api/items/{item}/events/{event}", ...); a part in braces holds no slash.
   void add(std::string_view method, std::string_view pattern, Handler, std::size_t body_limit = usual_body_limit);
 
-  /// Nothing where nobody answers.
+  /// Nothing where no one answers.
   std::optional<std::size_t> body_limit(std::string_view method, std::string_view path) const;
 
   /// Never throws: what a handler throws becomes an answer, and an unknown path, or one with another method, too.

@@ -25,7 +25,8 @@ struct OutlineShape {
   std::array<double, mode_count> modes{};
 };
 
-/// What a shape is told by: size (area, or ln of it in a ShapeVector), deformation, Lambda1 / Lambda2, and the modes.
+/// What a shape is described by: size (area, or ln of it in a ShapeVector), deformation, Lambda1 / Lambda2, and the
+/// modes.
 enum class ShapeFeature { area_um2, deformation, moment_ratio, first_mode };
 inline constexpr int feature_count = int(ShapeFeature::first_mode) + mode_count;
 constexpr int feature_of_mode(int k) { return int(ShapeFeature::first_mode) + k - min_mode; }
@@ -50,8 +51,8 @@ OutlineShape hull_shape(const Polygon& hull);
 /// The first of its modes alone.
 RadiusModes hull_modes(const Polygon& hull);
 
-/// Of the same polygon, what tells a cell of the model from any other, and how it lies to the flow; NaN below three
-/// points.
+/// Of the same polygon, what distinguishes a cell of the model from any other, and how it lies to the flow; NaN below
+/// three points.
 struct HullAsymmetry {
   double moment_ratio = no_value, mode_2 = no_value, mode_3 = no_value, mode_4 = no_value, mode_5 = no_value;  ///< c_k
   SineModes sine_modes{no_value, no_value, no_value};

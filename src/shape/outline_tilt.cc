@@ -43,7 +43,7 @@ constexpr TiltFeature all_tilt_features[] = {
     {"sine_mode_2",
      "sine mode s_2 of the hull's radius about its centroid, counted from downstream towards growing pos_y",
      &OutlineTilt::sine_mode_2},
-    {"flank_slope", "slope dy/dx, x downstream, of the line midway between both flanks of the hull",
+    {"flank_slope", "slope dy/dx, x downstream, of the line midway between the two flanks of the hull",
      &OutlineTilt::flank_slope},
     {"sine_mode_3", "its sine mode s_3", &OutlineTilt::sine_mode_3},
     {"sine_mode_4", "its sine mode s_4", &OutlineTilt::sine_mode_4}};

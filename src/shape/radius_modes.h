@@ -1,4 +1,4 @@
-// Cosine modes of an outline's radius about its centroid: what tells an ellipse from a bullet.
+// Cosine modes of an outline's radius about its centroid: what distinguishes an ellipse from a bullet.
 #pragma once
 #include <array>
 #include <vector>

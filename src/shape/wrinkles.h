@@ -1,4 +1,4 @@
-// Signs by which a wrinkled surface is told from a smooth one (docs/theory.md, sec. "surface instability").
+// Signs by which a wrinkled surface is distinguished from a smooth one (docs/theory.md, sec. "surface instability").
 #pragma once
 #include "shape/contour.h"
 

@@ -75,15 +75,15 @@ fs::path find_table(const std::string& wanted, const std::string& asked_by) {
   tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
   const auto names = names_in(tables);
-  const std::string place = fmt::format("rheocyte: {} {}: there is neither such a file nor such a table{}", asked_by,
+  const std::string place = fmt::format("rheocyte: {} {}: there is no such file or table{}", asked_by,
                                         one_line(wanted, 200), did_you_mean(wanted, names));
   const bool has_published =
       std::ranges::any_of(tables, [](const auto& table) { return table.second.extension() == ".txt"; });
   const std::string published =
       has_published
           ? ""
-          : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was looked for in "
-            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, beside the python3 of the PATH, in ~/.local, /usr/local and /usr.";
+          : " Published tables such as LE-2D-FEM-19 come with dclab (pip install dclab), which was searched for in "
+            "PYTHONPATH, VIRTUAL_ENV, CONDA_PREFIX, next to the python3 of the PATH, in ~/.local, /usr/local and /usr.";
   throw UserError(names.empty() ? place + ". Give the path of a table." + published
                                 : fmt::format("{} (there are {}).{}", place, joined(names, ", "), published));
 }

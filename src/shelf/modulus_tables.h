@@ -49,7 +49,7 @@ class ModulusTables {
   /// if neither knows.
   const ShapeMap* shapes(double flow_exponent) const;
 
-  /// Of cells that are drawn out along the flow, in the square channel: the table that comes with the program for this
+  /// Of cells that are elongated along the flow, in the square channel: the table that comes with the program for this
   /// liquid, or that of the nearest one changed to it; null in the tube, and where there is none.
   const ElongatedLiquid* elongated(double flow_exponent) const;
 
@@ -91,7 +91,7 @@ class ModulusTables {
 
   Section section_;
   std::vector<Table> tables_;
-  mutable std::vector<Table> shipped_;                  ///< all of them, once others are wanted
+  mutable std::vector<Table> shipped_;                  ///< all of them, once others are requested
   mutable std::unique_ptr<const ModulusMap> standard_;  ///< once its shapes are needed
   /// Once it is needed: the table, and cells without elongation in its liquid and in that of the recording.
   struct Elongated {

@@ -23,11 +23,11 @@ fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/r
   const std::string place = fmt::format("rheocyte: --table {}: ", one_line(wanted, 200));
   for (const std::string_view other : {"grid", "elongated", "combined", "dynamic"})
     if (other != kind && table_files(tables_folder(), other).contains(wanted))
-      throw UserError(fmt::format("{}it is not a {}; with the program comes {}.", place, noun, usual));
-  throw UserError(fmt::format(
-      "{}there is neither such a file nor such a folder. With the program comes {}; any other {} is made first, by "
-      "`rheocyte table`, which takes from two minutes to two hours (docs/tables.md).",
-      place, usual, noun));
+      throw UserError(fmt::format("{}it is not a {}; the program provides {}.", place, noun, usual));
+  throw UserError(
+      fmt::format("{}there is no such file or folder. The program provides {}; `rheocyte table` computes any other {} "
+                  "in two minutes to two hours (docs/tables.md).",
+                  place, usual, noun));
 }
 
 /// `usual`: the identifier of the one that is taken where none is wanted.
@@ -60,7 +60,7 @@ fs::path combined_table_or_shipped(const fs::path& wanted) {
 }
 
 fs::path dynamic_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "dynamic", "table of cells on their way", "HE-chip-26");
+  return wanted_or_shipped(wanted, "dynamic", "dynamic table", "HE-chip-26");
 }
 
 }  // namespace rheocyte

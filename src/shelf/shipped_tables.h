@@ -10,15 +10,15 @@ namespace rheocyte {
 /// data of the sources; RHEOCYTE_TABLES in the environment names another folder.
 std::map<std::string, std::filesystem::path> shipped_tables();
 
-/// Likewise the files elongated_<identifier>.cbor of elongated cells.
+/// Also the files elongated_<identifier>.cbor of elongated cells.
 std::map<std::string, std::filesystem::path> shipped_elongated_tables();
-/// Likewise the files combined_<identifier>.cbor of cells with bulk and cortex.
+/// Also the files combined_<identifier>.cbor of cells with bulk and cortex.
 std::map<std::string, std::filesystem::path> shipped_combined_tables();
-/// Likewise the files dynamic_<identifier>.cbor of cells on their way.
+/// Also the files dynamic_<identifier>.cbor of cells on their way.
 std::map<std::string, std::filesystem::path> shipped_dynamic_tables();
 
-/// The wanted table, by its place or its identifier, and where none is wanted the one that comes with the program: of
-/// cells with bulk and cortex, and of cells on their way. UserError if it is missing.
+/// The requested table, by its place or its identifier, and where none is requested the one that comes with the
+/// program: of cells with bulk and cortex, and of cells on their way. UserError if it is missing.
 std::filesystem::path combined_table_or_shipped(const std::filesystem::path& wanted);
 std::filesystem::path dynamic_table_or_shipped(const std::filesystem::path& wanted);
 

@@ -12,7 +12,7 @@ namespace rheocyte {
 /// Whether the cells of a recording are virtual ones of a table. `made_of`: what it says under made_of_key, if
 /// anything.
 bool are_cells_of(const Case& table, std::string_view made_of);
-/// In which they were seen: the wanted section; else the table's where they are its virtual cells; else the square.
+/// In which they were seen: the requested section; else the table's where they are its virtual cells; else the square.
 Section section_seen(std::optional<Section> wanted, std::string_view made_of, const Case& table);
 /// What is said where it is the table's.
 inline constexpr std::string_view own_cells_text =

@@ -9,7 +9,7 @@ namespace {
 
 /// r0 / R, and ln(mu / S / (r0 / R)) of the softest cell: of a small cell the modulus is proportional to its radius.
 /// By search to 0.2 % of the compliance (studies/branch_ends.cc). The branch of linear cells ends otherwise above 0.55:
-/// farther drawn out, behind the place where it first comes near Biot's limit.
+/// further elongated, behind the place where it first comes near Biot's limit.
 struct End {
   double radius_ratio, log_modulus;
 };

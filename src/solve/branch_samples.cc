@@ -20,7 +20,7 @@ constexpr double fraction_of_end = 0.97, step_back = 0.95;
 constexpr int max_steps_back = 14;
 /// States above are more accurate where the last one is farther from the end; an error of those below stays with them.
 constexpr double soft_height = 0.6;
-/// A branch whose last state is closer than this to what is wanted covers it.
+/// A branch whose last state is closer than this to what is requested covers it.
 constexpr double fraction_covered = 0.97;
 /// Of the compliance: so closely the end is looked for.
 constexpr double min_step = 0.01;

@@ -14,7 +14,7 @@ struct BranchSamples {
   Status end = Status::not_started;  ///< why the branch goes no farther; converged: it passes the greatest deformation
 };
 
-/// How far a branch is followed, and which of its states are wanted.
+/// How far a branch is followed, and which of its states are requested.
 struct SamplingWay {
   double max_deformation = 1;
   double least_margin = 0;      ///< of the surface from its limit (surface_stability.h)
@@ -23,7 +23,7 @@ struct SamplingWay {
   /// deformed by something else than the flow, too.
   enum class Height { root_of_deformation, compliance };
   Height height = Height::root_of_deformation;
-  double first_compliance = 0;  ///< before it no state is wanted: there the way may lead from the sphere
+  double first_compliance = 0;  ///< before it no state is requested: there the way may lead from the sphere
 };
 
 /// The branch of a problem, whose media are those given at a compliance of 1, is followed from the sphere to its end,

@@ -31,7 +31,7 @@ double offset_in_mesh(const Problem& problem, double half_width) {
 }
 
 /// Spokes to the edge of the box must not lead below the cell where the wall slants, but soft cells, which the funnel
-/// draws out, need a long box: by the fraction of the width at which a cell starts.
+/// elongates, need a long box: by the fraction of the width at which a cell starts.
 void shorten_box(double fraction, DuctShape& shape) {
   constexpr double least = 0.2, greatest = 0.5;
   const double usual = disturbed_half_length(shape.radius, shape.extent), r0 = shape.radius,
@@ -194,11 +194,11 @@ void follow_rims(Geometry& duct) {
 }  // namespace
 
 /// A tangent takes the scout a third of the time that it takes at degree 3. Higher degrees move the end of a branch by
-/// a few per cent: where it is farther from the wanted compliance than 15 %, they are not tried.
+/// a few per cent: where it is farther from the requested compliance than 15 %, they are not tried.
 ///
-/// A deformation changes by about as much, relative, as the residual that is left: far less than the wanted accuracy. A
-/// factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a nearby
-/// case, a state takes one to three; beyond the end of the branch Newton wanders. Off the axis it takes more in
+/// A deformation changes by about as much, relative, as the residual that is left: far less than the requested
+/// accuracy. A factorisation costs as much as tens of chord steps at high degrees. From one degree to the next, or to a
+/// nearby case, a state takes one to three; beyond the end of the branch Newton wanders. Off the axis it takes more in
 /// strongly shear-thinning liquids, whose viscosity is the least smooth where the cell no longer covers the axis.
 ///
 /// A degree more costs three times as much here, and less caution than in the tube has to do (eq:square-error). Of a

@@ -1,4 +1,4 @@
-// Ducts in three dimensions: what is told of a state, and the numbers of its search (docs/theory-square.md).
+// Ducts in three dimensions: what is reported of a state, and the numbers of its search (docs/theory-square.md).
 #pragma once
 #include <memory>
 

@@ -1,4 +1,4 @@
-// What is told of a state in a duct: its contour, numbers and fields.
+// What is reported of a state in a duct: its contour, numbers and fields.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -22,7 +22,7 @@ Camera camera_in_mesh(const Problem& problem) { return problem.offset == 0 ? pro
 /// Whether the channel of a centred cell looks alike along width and height.
 bool is_square(const Problem& problem) { return symmetry_of(problem) == Symmetry::eighth; }
 
-/// Cameras whose silhouettes are told of every state with a centred cell.
+/// Cameras whose silhouettes are reported of every state with a centred cell.
 std::vector<std::pair<std::string_view, Camera>> views_of(const Problem& problem) {
   if (problem.offset != 0) return {};
   std::vector<std::pair<std::string_view, Camera>> views{{"side", Camera::side}};

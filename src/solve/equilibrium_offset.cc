@@ -119,7 +119,7 @@ void say_unsettled(const Problem& problem, double left, Outcome& outcome) {
   outcome.status = judged(outcome.status, {.estimated_error = left, .wanted_error = place_tolerance});
   outcome.message += fmt::format(
       " The search for the place where it does not drift has not settled: its next step would be {:.2g} of the cell's "
-      "radius; start it nearer to that place (cell.offset_um), or with a smaller numerics.accuracy.",
+      "radius; start it closer to that place (cell.offset_um), or with a smaller numerics.accuracy.",
       left / problem.radius_ratio);
 }
 
@@ -140,8 +140,8 @@ StationaryState solve_at_equilibrium(const Problem& problem, const SolveAtOffset
     StationaryState state = search.result();
     state.outcome.status = Status::no_equilibrium;
     state.outcome.message = fmt::format(
-        "The cell drifts towards the wall beyond the greatest offset that can be solved for, {:.3g} of its "
-        "radius; there is no equilibrium before.",
+        "The cell drifts towards the wall beyond the maximum offset that can be solved, {:.3g} of its radius; there is "
+        "no equilibrium before.",
         search.offset() / problem.radius_ratio);
     return state;
   }

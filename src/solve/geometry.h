@@ -1,5 +1,5 @@
-// What tells one kind of channel from another: the maker of its discretisations, and the numbers of the search for its
-// states. Another kind is added by another maker.
+// What distinguishes one kind of channel from another: the maker of its discretisations, and the numbers of the search
+// for its states. Another kind is added by another maker.
 #pragma once
 #include <memory>
 #include <vector>
@@ -28,7 +28,7 @@ struct Rungs {
   int first_degree, last_degree;
   bool only_begins = false;       ///< neighbouring degrees agree on this mesh although both are wrong
   bool is_rough_at_rims = false;  ///< the same if the mesh was fitted to a dented cell
-  bool goes_on = false;           ///< from the rungs on coarser meshes, rather than anew
+  bool goes_on = false;           ///< from the rungs on coarser meshes, rather than from the start
 };
 
 struct Geometry {
@@ -43,7 +43,7 @@ struct Geometry {
   /// these.
   double gain_of_finer = 1, gain_by_change = 0;
   double margin_at_coarse_ends = small_margin;  ///< of the surface's stability, where a search gives up before
-  bool ends_late_on_finer = false;              ///< so much later that a coarse end is told as one
+  bool ends_late_on_finer = false;              ///< so much later that a coarse end is reported as one
   bool knows_ends = false;                      ///< of bare solids (solve/branch_ends.h)
 
   std::vector<Rungs> rungs = {};   ///< coarse to fine

@@ -11,7 +11,7 @@ namespace {
 constexpr double tiny_deformation = 1e-5;
 /// Less than the standard error that pixels leave of the mean deformation of a thousand events (0.005 each).
 constexpr double seen_deformation = 1e-4;
-/// A drift is told from none down to this.
+/// A drift is distinguished from none down to this.
 constexpr double fraction_of_velocity = 1e-4;
 
 }  // namespace

@@ -18,7 +18,7 @@ struct ResolvedState {
   std::shared_ptr<Discrete> discrete;
   BranchState branch;  ///< its parameter is the compliance relative to the problem's
   double residual = 0;
-  bool gave_up = false;  ///< far from the wanted cell, before the end was found exactly
+  bool gave_up = false;  ///< far from the requested cell, before the end was found exactly
 };
 
 /// How errors follow from the last rungs.

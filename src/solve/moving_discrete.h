@@ -1,5 +1,5 @@
 // A cell on its way at one resolution, in whatever dimension: mesh, walls, and the system of one step in time. What
-// tells the tube from a duct for the steppers.
+// distinguishes the tube from a duct for the steppers.
 #pragma once
 #include <functional>
 #include <memory>

@@ -24,7 +24,7 @@ StateNumbers unknown_numbers();
 StateNumbers errors_of_last(std::span<const StateNumbers>, double error_of_deformation);
 
 /// Errors of the numbers of a state of which another one with greater errors is known, each in its number's unit: the
-/// changes between them, and likewise none below those of the outline, which changes by `min_outline` at least, or of
+/// changes between them, and none below those of the outline, which changes by `min_outline` at least, or of
 /// single points.
 StateNumbers errors_of_change(const StateNumbers& coarser, const StateNumbers&, double min_outline = 0);
 

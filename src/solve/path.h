@@ -17,7 +17,7 @@ MediaAt softening(const Media&);
 struct Path {
   std::function<NonlinearSystem&(double)> system;
   MediaAt media;
-  double end = 1;     ///< the wanted value
+  double end = 1;     ///< the requested value
   double origin = 0;  ///< steps are limited relative to the distance from here; -infinity: not limited
 
   /// What changes of the parameter are measured in: the distance from the origin, 1 if there is none.

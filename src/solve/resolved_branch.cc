@@ -74,7 +74,7 @@ ResolvedBranch::Accept ResolvedBranch::smooth() {
     const Problem here = problem_at(state.parameter);
     if (discrete.is_wrinkled(here, state.unknowns)) return false;
     trail_.push_back({.status = Status::converged, .discrete = discrete.shared_from_this(), .branch = state});
-    // A way that begins anew need not show again what a coarser one showed.
+    // A way that starts again need not show again what a coarser one showed.
     if (report_ && state.parameter > seen_) report(discrete, state, discrete.deformation(here, state.unknowns));
     return true;
   };
@@ -210,7 +210,7 @@ ResolvedState ResolvedBranch::enter(ResolvedState& from, const Resolution& resol
 
 namespace {
 
-/// So many tell how far the branch goes.
+/// So many show how far the branch goes.
 constexpr std::size_t coarse_ways = 2;
 
 /// Whether the ends of a branch on two coarse resolutions leave no hope that a finer one reaches the compliance 1.

@@ -11,12 +11,12 @@
 namespace rheocyte {
 
 /// How hard the end of a branch is looked for. Thorough: on all resolutions. Hopeful: not on the fine ones, which only
-/// see a little more of the branch, if the coarse ones end far from the wanted cell. Quick: on the coarse ones alone,
-/// where the end is known anyway.
+/// see a little more of the branch, if the coarse ones end far from the requested cell. Quick: on the coarse ones
+/// alone, where the end is known anyway.
 enum class Search { thorough, hopeful, quick };
 
 /// Along the branch the cell softens to what the problem says, or as the caller says. States are reported as they are
-/// found, those of a way that begins anew once it is beyond what was reported. `stop` is polled once an iteration.
+/// found, those of a way that starts again once it is beyond what was reported. `stop` is polled once an iteration.
 class ResolvedBranch {
  public:
   ResolvedBranch(const Problem& problem, Geometry geometry, ProgressCallback report = {}, const WorkLimits& limits = {})
@@ -35,7 +35,7 @@ class ResolvedBranch {
   /// The work since it was asked for last; sizes are left alone.
   SolveStatistics take_statistics() { return std::exchange(statistics_, {}); }
 
-  /// From the sphere to the wanted compliance, or as far as the branch goes.
+  /// From the sphere to the requested compliance, or as far as the branch goes.
   ResolvedState follow(Search = Search::hopeful);
   /// The first state of the branch at a resolution.
   ResolvedState start(const Resolution&, const ContinuationOptions&, const Accept&);

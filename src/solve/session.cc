@@ -61,7 +61,7 @@ ResolvedState follow_to_known_end(const Problem& problem, const Geometry& geomet
 
 }  // namespace
 
-/// If a stop is wanted what was kept becomes what it was.
+/// If a stop is requested what was kept becomes what it was.
 Status Session::answer_nearby(const Problem& problem, ResolvedBranch& branch, Ladder& answer) {
   const auto is_near = [&](const Kept& kept) {
     return has_same_laws(kept.problem, problem) && has_same_channel(kept.problem, problem) &&
@@ -161,7 +161,7 @@ void Session::keep(Kept answer) {
   if (memory_limit_ == 0) return;
   kept_.push_front(std::move(answer));
   while (kept_.size() > 1 && memory_bytes() > memory_limit_) kept_.pop_back();
-  // The highest degrees are those whose factors are large: without them they are factorised anew.
+  // The highest degrees are those whose factors are large: without them they are factorised again.
   std::vector<ResolvedState>& rungs = kept_.front().ladder.rungs;
   for (auto rung = rungs.rbegin(); rung != rungs.rend() && memory_bytes() > memory_limit_; ++rung)
     rung->discrete->system().drop_factors();

@@ -1,4 +1,4 @@
-// The stationary shape of one cell: from the sphere to the wanted state by itself (docs/theory.md, sec. 4).
+// The stationary shape of one cell: from the sphere to the requested state by itself (docs/theory.md, sec. 4).
 #pragma once
 #include <functional>
 #include <memory>
@@ -40,7 +40,7 @@ struct SolveStatistics : WorkMeter {
 
 /// One step along the branch, for progress and for later use.
 struct BranchStep {
-  double compliance;  ///< wanted modulus / modulus of this step: 0 = rigid, 1 = the wanted state
+  double compliance;  ///< requested modulus / modulus of this step: 0 = rigid, 1 = the requested state
   double deformation;
   int newton_iterations;
   int degree;  ///< polynomial degree at which it was found
@@ -85,7 +85,7 @@ struct StationaryState : StateNumbers {
   double step_error = no_value;       ///< that of the steps in time in it
   double deformation_floor = 0;
   StateNumbers errors = unknown_numbers();  ///< of the numbers, each in its unit; not a number: not known
-  /// In time, how the same run with other steps or on another mesh ended, which tells the error; not_started: there
+  /// In time, how the same run with other steps or on another mesh ended, which gives the error; not_started: there
   /// was none.
   Status comparison = Status::not_started;
   SolveStatistics statistics;

@@ -156,7 +156,7 @@ std::vector<ErrorParts> error_parts(const std::vector<TimePoint>& points, const 
 /// The first run's errors at its levels, the ends of its steps. A state is one of a polynomial through order + 1 levels
 /// (docs/theory-time.md, eq:error-of-levels): what they are off by makes its error. The change to another run, whose
 /// steps are others, passes zero in one of them by chance, but not in all; where its steps are no longer than those of
-/// the first run, it tells nothing, but the steps of the first run themselves do (eq:local-error).
+/// the first run, it gives nothing, but the steps of the first run themselves do (eq:local-error).
 class LevelErrors {
  public:
   LevelErrors(const std::vector<TimePoint>& levels, std::vector<ErrorParts> changes)
@@ -226,7 +226,7 @@ std::string told(const OtherRun& mesh, const OtherRuns& others, double deformati
     greatest = std::max(greatest, here);
     change = std::max(change, std::abs(here - mesh.way.outputs[i].state.shape.deformation));
   }
-  if (greatest > 0) text += fmt::format(", and none by more than {:.2g} % of the greatest", 100 * change / greatest);
+  if (greatest > 0) text += fmt::format(", and none by more than {:.2g} % of the maximum", 100 * change / greatest);
   return text + fmt::format(". Steps with time.accuracy = {:.2g} change it by {:.2g} %.", others.steps.accuracy,
                             100 * std::abs(others.steps.deformation() - deformation) / deformation);
 }
@@ -246,8 +246,8 @@ OtherRun with_other_steps(const FollowedRun& first, const WorkLimits& limits) {
   return follow_again(first, finer, first.resolution, limits);
 }
 
-/// A coarser mesh tells an error that is at least that of the run; where this is not enough for what is wanted, a finer
-/// one tells more.
+/// A coarser mesh gives an error that is at least that of the run; where this is not enough for what is requested, a
+/// finer one gives more.
 OtherRuns follow_others(const FollowedRun& first, const WorkLimits& limits, const StationaryState& result) {
   OtherRuns others{first.run.accuracy, with_other_steps(first, limits), {}, {}};
   if (!others.steps.has_arrived()) return others;

@@ -75,7 +75,7 @@ bool shape_has_settled(const Stepper& stepper) {
 }
 
 constexpr const char* start_failed =
-    "The flow round the sphere at rest was not found: the case is far outside what the solver can follow.";
+    "The flow round the sphere at rest was not found: the case is far outside the range of the solver.";
 
 }  // namespace
 
@@ -238,10 +238,11 @@ std::string TimeFollower::explanation(Status status) const {
   const TimeLevel& now = stepper_->now();
   if (status == Status::stopped)
     return fmt::format("Stopped by a signal at {}; --continue goes on from there.", fraction());
-  const char* why = run_.scheme == TimeScheme::partitioned
-                        ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell is "
-                          "drawn out or wrinkles"
-                        : "the cell is drawn out or wrinkles, raise its moduli or lower flow rate or viscosity";
+  const char* why =
+      run_.scheme == TimeScheme::partitioned
+          ? "the step is too large for elasticity that is explicit, lower time.step_us, or the cell elongates without "
+            "limit or wrinkles"
+          : "the cell elongates without limit or wrinkles, raise its moduli or lower flow rate or viscosity";
   const bool can_be_finer = !stepper_->has_passed_walls(now) && degree_ < max_time_degree_of(stepper_->problem());
   const std::string coarse =
       can_be_finer ? fmt::format(", or the wall is too steep for the mesh, try time.degree = {}", degree_ + 1) : "";

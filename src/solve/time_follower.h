@@ -9,7 +9,7 @@
 
 namespace rheocyte {
 
-/// Times or places of another run, in order, at which the same numbers are wanted of this one.
+/// Times or places of another run, in order, at which the same numbers are requested of this one.
 struct TimeProbe {
   bool by_place = false;
   std::vector<double> at;
@@ -24,7 +24,7 @@ class TimeFollower {
   StationaryState follow(const TimeStart* from, std::vector<TimeProbe>* probes = nullptr);
 
   bool has_settled() const { return settled_; }
-  /// Whether the way was as long as wanted.
+  /// Whether the way was as long as requested.
   bool is_at_place() const;
   /// "12 % of the way": how far it has come.
   std::string fraction() const;

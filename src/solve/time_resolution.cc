@@ -10,9 +10,9 @@
 namespace rheocyte {
 namespace {
 
-/// Of the ladder that the coarse resolutions are judged by, in the wanted accuracy.
+/// Of the ladder that the coarse resolutions are judged by, in the requested accuracy.
 constexpr double fraction_of_reference = 0.1;
-/// Of the wanted accuracy that the stationary shape may use up: the way to it is not as smooth.
+/// Of the requested accuracy that the stationary shape may use up: the way to it is not as smooth.
 constexpr double fraction_of_stationary = 0.5;
 /// The quarter of a duct that a funnel leaves has four to five times the unknowns of a square's stationary state.
 constexpr int greatest_chosen_in_ducts = 5;

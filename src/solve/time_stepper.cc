@@ -21,7 +21,7 @@ struct TimeStepper::Trial {
   NewtonReport newton;
   BdfFormula formula;
   TimeLevel level;
-  double error = 0;  ///< relative to the wanted accuracy
+  double error = 0;  ///< relative to the requested accuracy
 };
 
 TimeStepper::TimeStepper(const Problem& problem, const Resolution& resolution, const TimeStepOptions& options)

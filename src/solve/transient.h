@@ -26,7 +26,7 @@ struct TimeRun {
   bool ends_when_settled = true;
 };
 
-/// Whether the user has chosen the mesh; then no accuracy is wanted of it.
+/// Whether the user has chosen the mesh; then no accuracy is requested of it.
 inline bool is_mesh_given(const TimeRun& run) { return run.degree > 0 || run.scheme == TimeScheme::partitioned; }
 
 /// How far before its wanted end a run by place may end: in a duct the place is the barycentre's, which is known as

@@ -120,7 +120,7 @@ StateNumbers numbers_of(const StateView& state, const Contour& contour, const Su
   r.min_meridional_stretch = least_along(surface, surface.stretch.col(0));
   r.min_tension = least_along(surface, surface_tensions(state.problem.cortex, surface).col(0));
   r.biot_ratio = least_along(surface, biot_ratios(surface));
-  // Tension and moduli are those of the media, which may be on the way to the wanted ones.
+  // Tension and moduli are those of the media, which may be on the way to the requested ones.
   r.stability_margin =
       stability_margin(state.problem, state.problem.radius_ratio,
                        {least_along(surface, wrinkling_margins(state.problem.bulk, surface)), r.min_tension,

@@ -61,7 +61,7 @@ struct StateView {
   const VectorXd& unknowns;
 };
 
-/// All numbers of a state, with its contour and its surface as finely as wanted.
+/// All numbers of a state, with its contour and its surface as finely as requested.
 StateNumbers numbers_of(const StateView&, const Contour&, const SurfaceState&);
 
 /// Of the elements along the surface in a liquid.

@@ -43,7 +43,7 @@ std::string ways_to_accuracy(std::string_view key, double estimated_error) {
                enough = std::ceil(estimated_error / unit) * unit;
   if (enough <= std::get<Number>(case_key(key).kind).range.greatest)
     return fmt::format("ask for less, {} = {:.1e} or more.", key, enough);
-  return "that is more than can be asked for: raise the moduli, or lower flow rate or viscosity.";
+  return "no accuracy can be that low: raise the moduli, or lower flow rate or viscosity.";
 }
 
 namespace {
@@ -62,12 +62,12 @@ std::string ways_out(const LastState& last) {
          "(cell.cortex.law = \"neo-hookean\").";
 }
 
-/// In wanted moduli; near 1 as many digits as tell the difference.
+/// In requested moduli; near 1 as many digits as tell the difference.
 std::string in_wanted_moduli(double ratio) {
   constexpr double told_by_four_digits = 1e-3;
-  if (ratio == 1) return "the wanted moduli";
-  if (std::abs(ratio - 1) < told_by_four_digits) return "hardly more than the wanted moduli";
-  return fmt::format("{:.4g} times the wanted moduli", ratio);
+  if (ratio == 1) return "the requested moduli";
+  if (std::abs(ratio - 1) < told_by_four_digits) return "hardly more than the requested moduli";
+  return fmt::format("{:.4g} times the requested moduli", ratio);
 }
 
 std::string loss_of_stability(const LastState& last) {
@@ -85,7 +85,7 @@ std::string unstable_surface(const std::string& where, const LastState& last) {
   return loss_of_stability(last) + ": the smooth branch ends at " + where + "; " + ways_out(last);
 }
 
-/// Of a cell with the wanted moduli, of which there was a state on some mesh.
+/// Of a cell with the requested moduli, of which there was a state on some mesh.
 std::string explanation_of_wanted(Status status, const LastState& last) {
   const auto& weak = last.weak_point;
   if (status == Status::surface_unstable && last.stability_margin < 0)
@@ -115,7 +115,7 @@ std::string found(const LastState& last) {
   if (last.deformation >= last.deformation_floor) return "The stationary shape was found.";
   return fmt::format(
       "The stationary shape was found; its deformation is so small that it is known within {:.0e}, not within the "
-      "wanted {:.1e} of its value.",
+      "requested {:.1e} of its value.",
       last.wanted_error * last.deformation_floor, last.wanted_error);
 }
 
@@ -124,8 +124,8 @@ std::string nothing_found(Status status, const LastState& last) {
   if (status == Status::surface_unstable)
     return fmt::format("The surface of this cell wrinkles at the smallest load already; {}.",
                        stabilise_it(last.can_bend));
-  return "No state was found, not even of a nearly rigid cell: the case is far outside what the solver can follow; "
-         "check the units of its numbers.";
+  return "No state was found, not even of a nearly rigid cell: the case is far outside the range of the solver; check "
+         "the units of its numbers.";
 }
 
 }  // namespace
@@ -147,8 +147,7 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
       return unstable_surface(where, last);
     case Status::branch_ended:
       return "The branch of stationary shapes ends at " + where +
-             "; softer cells are drawn out without limit: raise the moduli above that, or lower flow rate or "
-             "viscosity.";
+             "; softer cells elongate without limit: raise the moduli above that, or lower flow rate or viscosity.";
     case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the moduli above that.";
     default: return fmt::format("The solver stopped ({}) at ", name(outcome.status)) + where + ".";
   }

@@ -15,11 +15,12 @@ enum class Status {
   converged,
   iteration_limit,       ///< Newton did not converge although the continuation step was reduced to its least value
   mesh_folded,           ///< the liquid's mesh overlaps itself at every step size
-  surface_unstable,      ///< the surface wrinkles, or its cortex collapses: the branch ends before the wanted state
+  surface_unstable,      ///< the surface wrinkles, or its cortex collapses: the branch ends before the requested state
   branch_ended,          ///< the tangent turns back: no state on this branch beyond
   singular_matrix,       ///< the factorisation failed
   not_finite,            ///< NaN or infinity in residual or state
-  accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the wanted one
+  accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the requested
+                         ///< one
   error_unknown,         ///< the state was found; a signal stopped the computation of its error
   stopped,               ///< by a signal
   no_equilibrium,        ///< the cell drifts on to the wall
@@ -27,7 +28,7 @@ enum class Status {
   dented,                ///< of a table's branch: the dent at the rear is as deep as the table admits
 };
 
-/// Whether there is a state, be it less accurate than wanted.
+/// Whether there is a state, be it less accurate than requested.
 inline bool has_state(Status status) {
   return status == Status::converged || status == Status::accuracy_not_reached || status == Status::error_unknown;
 }
@@ -36,21 +37,21 @@ inline bool has_state(Status status) {
 struct FinalState {
   double stability_margin = 1;     ///< below 0: beyond the limit against short wrinkles (solve/surface_stability.h)
   double estimated_error = 0;      ///< relative; NaN: not known
-  double wanted_error = HUGE_VAL;  ///< HUGE_VAL: none is wanted
+  double wanted_error = HUGE_VAL;  ///< HUGE_VAL: none is requested
 };
 
 /// The status of a state, from how the way to it ended and from what the state is: none is `converged` whose surface is
-/// beyond its limit or whose stated error is above the wanted one. Tube, duct and time ask here.
+/// beyond its limit or whose stated error is above the requested one. Tube, duct and time ask here.
 Status judged(Status way, const FinalState&);
 
 /// What happened to the user's case.
 struct Outcome {
   Status status = Status::not_started;
   std::string message;  ///< one sentence: what, at which value, what to try
-  double reached = 0;   ///< fraction of the wanted compliance 1/E that was reached, 1: the wanted moduli
+  double reached = 0;   ///< fraction of the requested compliance 1/E that was reached, 1: the requested moduli
 };
 
-/// Whether there is a shape with the wanted moduli, be its surface beyond the limit of stability.
+/// Whether there is a shape with the requested moduli, be its surface beyond the limit of stability.
 inline bool has_wanted_moduli(const Outcome& outcome) {
   return has_state(outcome.status) || (outcome.status == Status::surface_unstable && outcome.reached >= 1);
 }
@@ -62,7 +63,7 @@ enum class SurfaceKind { bare, membrane, held };
 SurfaceKind surface_kind(const Media&);
 
 /// The absolute error that rounding leaves of a deformation: the digits of area and perimeter cancel. No deformation is
-/// resolved better, whatever relative accuracy is wanted.
+/// resolved better, whatever relative accuracy is requested.
 inline constexpr double deformation_round_off = 1e-12;
 
 /// A point of the surface at which a cortex loses its resistance to compression.
@@ -82,7 +83,7 @@ struct LastState {
   std::optional<WeakPoint> weak_point = {};  ///< if the surface loses its stability by collapse, not by wrinkles
   bool can_bend = true;                      ///< not off the axis of a duct
   bool is_coarse = false;                    ///< the end was seen on coarse meshes alone
-  double known_end = 0;                      ///< least modulus over the wanted one, where it was known beforehand
+  double known_end = 0;                      ///< least modulus over the requested one, where it was known beforehand
 };
 
 /// One sentence for the user: what happened, where, what to try.

@@ -25,7 +25,7 @@ struct StateNumbers {
   double drift_velocity = no_value;            ///< of a cell off the axis, along its offset, in U
   double spin = no_value;                      ///< rate at which its material turns, in U/R
   double offset = no_value;                    ///< of its barycentre, in R
-  double offset_error = no_value;              ///< of the place of equilibrium, likewise
+  double offset_error = no_value;              ///< of the place of equilibrium; as above
   OutlineTilt tilt;                            ///< of its outline in the plane of the offset
   double flow_rate = no_value;                 ///< mean velocity in U
   double volume_flow = no_value;               ///< in R^2 U
@@ -198,29 +198,27 @@ inline constexpr StateMeasure state_measures[] = {
      .member = &StateNumbers::channel_length,
      .settles_with = SettlesWith::itself},
     {.name = "tube_radius_um",
-     .sentence = "radius of the tube that stands for the channel, the least one if it varies",
+     .sentence = "radius of the tube that stands for the channel, the minimum if it varies",
      .member = &StateNumbers::tube_radius,
      .null_where = "where the channel is computed in three dimensions",
      .settles_with = SettlesWith::itself},
     {"reynolds",
      "density x cell velocity x tube radius / viscosity, which is the liquid's at the shear rate mean velocity / tube "
-     "radius; in a duct with half the lesser width as the radius",
+     "radius; in a duct with half the smaller width as the radius",
      &StateNumbers::reynolds},
     {.name = "shear_rate_max_per_s",
-     .sentence = "greatest shear rate sqrt(2 D:D) of the liquid beside the cell, between the planes across the channel "
-                 "through its "
-                 "poles, cell and wall included",
+     .sentence = "maximum shear rate sqrt(2 D:D) of the liquid next to the cell, between the planes across the channel "
+                 "through its poles, cell and wall included",
      .member = &StateNumbers::shear_rate_max,
      .settles_with = SettlesWith::points},
     {.name = "least_meridional_stretch",
-     .sentence = "least stretch of the surface along the meridian, in a square channel in any direction",
+     .sentence = "minimum stretch of the surface along the meridian, in a square channel in any direction",
      .member = &StateNumbers::min_meridional_stretch,
      .columns = AlsoIn::tables,
      .settles_with = SettlesWith::points},
     {.name = "biot_ratio",
-     .sentence =
-         "least ratio of meridional (in a square channel the least) to normal stretch of the surface; a bare surface "
-         "wrinkles below 0.2956, that of a fung solid later",
+     .sentence = "minimum ratio of meridional (in a square channel the minimum) to normal stretch of the surface; a "
+                 "bare surface wrinkles below 0.2956, that of a fung solid later",
      .member = &StateNumbers::biot_ratio,
      .settles_with = SettlesWith::points},
     {.name = "stability_margin",
@@ -231,7 +229,7 @@ inline constexpr StateMeasure state_measures[] = {
      .columns = AlsoIn::both,
      .settles_with = SettlesWith::points},
     {.name = "least_tension_mN_per_m",
-     .sentence = "least meridional tension of the surface; a shell wrinkles where it is negative",
+     .sentence = "minimum meridional tension of the surface; a shell wrinkles where it is negative",
      .member = &StateNumbers::min_tension,
      .columns = AlsoIn::history,
      .settles_with = SettlesWith::points}};

@@ -8,7 +8,7 @@
 
 namespace rheocyte {
 
-/// A file that does not stand in its place yet. It is written under a hidden name beside that place, which nobody can
+/// A file that does not stand in its place yet. It is written under a hidden name beside that place, which no one can
 /// foresee; what is not published leaves no trace, and what a killed process leaves is removed by the next one.
 class AtomicFile {
  public:
@@ -39,7 +39,7 @@ int write_atomically(const std::filesystem::path& wanted, std::string_view conte
 /// Writes a file into a folder that is published as a whole. Returns 0 or errno.
 int write_part(const std::filesystem::path& file, std::string_view content);
 
-/// What becomes of a file that stands in the wanted place: kept, the call fails with EEXIST.
+/// What becomes of a file that stands in the requested place: kept, the call fails with EEXIST.
 enum class Older { replace, keep };
 
 /// Brings a file that was written under another name of the same folder to the disk and puts it in its place in one

@@ -46,7 +46,7 @@ void close(int& descriptor) {
   if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
 }
 
-// A program that has ended already does not read: that is told by its end, not by a signal here.
+// A program that has ended already does not read: that is described by its end, not by a signal here.
 void send(int socket, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::send(socket, text.data(), text.size(), without_signal);

@@ -32,7 +32,7 @@ struct Claiming {
 /// Of a file or folder that is there. False if it is held already, is none, or its file system knows no locks.
 Claim claim_on(const std::filesystem::path&);
 
-/// Waits until nobody else holds the folder; without locks it does not wait.
+/// Waits until no one else holds the folder; without locks it does not wait.
 Claim wait_for_folder(const std::filesystem::path&);
 
 enum class IfHeld { fail, wait };

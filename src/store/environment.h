@@ -1,4 +1,4 @@
-// What the shell tells the program.
+// What the shell gives the program.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -13,7 +13,7 @@ void WorkReply::run_isolated(const std::filesystem::path& file, const std::funct
   const IsolatedEnd end = run_isolated_bytes(
       isolated, limits,
       {.progress = [this](double done) { report_progress(done); }, .stop = [this] { return !is_wanted(); }});
-  if (end.kind == IsolatedEnd::Kind::stopped) throw UserError("Nobody waits any more for what was asked.");
+  if (end.kind == IsolatedEnd::Kind::stopped) throw UserError("The request was cancelled.");
   if (end.kind != IsolatedEnd::Kind::finished) throw UserError(sentence_for(file, end, limits.patience_s));
 }
 

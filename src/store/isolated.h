@@ -49,7 +49,7 @@ using IsolatedWork = std::function<std::string(const TellProgress&)>;
 /// As run_isolated; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
 IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const Watch& watch);
 
-/// Several works, each as by run_isolated_bytes, some at once; what they tell and how they ended is told in the
+/// Several works, each as by run_isolated_bytes, some at once; what they tell and how they ended is reported in the
 /// caller's thread, while it starts the next one or waits. Where there are no processes, one after another.
 class IsolatedPool {
  public:
@@ -97,7 +97,7 @@ auto run_isolated(const Work& work, const Isolation& limits = {}, const Watch& w
   return isolated_from<Result>(run_isolated_bytes(as_bytes, limits, watch));
 }
 
-/// What the user is told of a recording whose reading has not finished: one sentence.
+/// What the user reads about a recording whose reading has not finished: one sentence.
 std::string sentence_for(const std::filesystem::path& recording, const IsolatedEnd& end, double patience_s);
 
 }  // namespace rheocyte

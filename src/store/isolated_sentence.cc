@@ -11,14 +11,14 @@ std::string sentence_for(const std::filesystem::path& recording, const IsolatedE
   switch (end.kind) {
     case Kind::user_error: return end.text;
     case Kind::no_memory:
-      return fmt::format("{}: reading it needs more memory than any sound recording does; it is damaged.", name);
+      return fmt::format("{}: reading it needs more memory than any intact recording does; it is damaged.", name);
     case Kind::hung:
       return fmt::format(
           "{}: nothing could be read for {} s; it is damaged, or its drive does not answer (--patience "
           "waits longer).",
           name, patience_s);
     case Kind::killed:
-      return fmt::format("{}: reading it was ended from outside ({}), perhaps for want of memory; try again.", name,
+      return fmt::format("{}: reading it was ended from outside ({}), perhaps for lack of memory; try again.", name,
                          one_line(end.text, 100));
     case Kind::broke_down:
       return fmt::format(

@@ -1,4 +1,4 @@
-// Claims by the locks of Windows, and for folders by opening them so that nobody else can open them in the same way.
+// Claims by the locks of Windows, and for folders by opening them so that no one else can open them in the same way.
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>

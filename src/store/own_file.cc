@@ -25,7 +25,7 @@ void check_place(const fs::path& path, const IsOurs& is_ours, std::string_view w
   if (error) refuse_path(path, fmt::format("cannot write there ({}).", error.message()));
   if (fs::is_directory(status)) refuse_path(path, "is a folder; give the name of a file with -o.");
   if (!fs::is_regular_file(status)) refuse_path(path, "is not a regular file; give another name with -o.");
-  if (!is_ours()) refuse_path(path, fmt::format("is there and was not written by rheocyte; {}.", way_out));
+  if (!is_ours()) refuse_path(path, fmt::format("already exists and was not written by rheocyte; {}.", way_out));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace rheocyte {
 
-/// What becomes of a file in the wanted place that is not ours.
+/// What becomes of a file in the requested place that is not ours.
 enum class Foreign {
   keep,                ///< the command has no way to replace it
   keep_unless_forced,  ///< the sentence names --force
@@ -20,7 +20,7 @@ bool is_own_file(const std::filesystem::path&, std::string_view mark);
 /// Whether it is a picture that this program has drawn: its metadata name it.
 bool is_own_picture(const std::filesystem::path&);
 
-/// UserError if a file, a folder or something else stands in the wanted place that is not ours to replace: that does
+/// UserError if a file, a folder or something else stands in the requested place that is not ours to replace: that does
 /// not begin with `mark`, or as `foreign` says.
 void check_replaceable(const std::filesystem::path&, std::string_view mark, Foreign foreign);
 

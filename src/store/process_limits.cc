@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t min_stack = std::size_t{1} << 20U;
 
-/// Now or never: when it is wanted later and there is none, the system ends the program without a word.
+/// Now or never: when it is requested later and there is none, the system ends the program without a word.
 [[gnu::noinline]] void take_stack() {
   constexpr std::size_t taken = min_stack / 4 * 3, page = 4096;
   void* const room = ::mmap(nullptr, taken, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -5,7 +5,7 @@
 
 namespace rheocyte {
 
-/// Lifts a small limit of the stack as far as it may be lifted and starts the program anew, since threads keep the
+/// Lifts a small limit of the stack as far as it may be lifted and starts the program again, since threads keep the
 /// limit of the start; takes the memory of a stack that suffices (without it, the end is that of end_without_memory).
 /// Returns nothing if the stack suffices, else a sentence.
 std::string secure_stack(char** arguments);

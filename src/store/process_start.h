@@ -8,7 +8,7 @@ namespace rheocyte {
 int make_pipe(int (&ends)[2]);
 int make_sockets(int (&ends)[2]);
 
-/// Among the flags of send(): an error rather than a signal if nobody reads.
+/// Among the flags of send(): an error rather than a signal if no one reads.
 extern const int without_signal;
 
 /// This process gets the signal when the thread that started it ends. Nothing where the system has no such thing.

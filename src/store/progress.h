@@ -6,7 +6,7 @@
 
 namespace rheocyte {
 
-/// How work tells that it goes on; `fraction` is in [0, 1].
+/// How work reports that it goes on; `fraction` is in [0, 1].
 using TellProgress = std::function<void(double fraction)>;
 
 /// As `tell`, but called as often as one likes it calls that only a few times a second.
@@ -22,7 +22,7 @@ class FileProgress {
  private:
   std::string name_;
   bool quiet_;
-  int percent_ = 0;  ///< as told last
+  int percent_ = 0;  ///< as reported last
   std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
 };
 

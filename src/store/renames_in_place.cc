@@ -1,4 +1,4 @@
-// Of builds without processes: nobody else changes the files meanwhile.
+// Of builds without processes: no one else changes the files meanwhile.
 #include <cerrno>
 #include <cstdio>
 #include <system_error>

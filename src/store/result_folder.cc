@@ -78,7 +78,7 @@ void check_replaceable(const fs::path& folder) {
   const bool empty = fs::is_empty(folder, error);
   if (error) refuse_path(folder, fmt::format("cannot read the folder ({}).", error.message()));
   if (!empty && !holds_a_result(folder))
-    refuse_path(folder, "holds files but no result of rheocyte; give a new or empty folder with -o.");
+    refuse_path(folder, "contains files but no result of rheocyte; give a new or empty folder with -o.");
   for (const char* const picture : pictures)
     check_replaceable_picture(folder / to_path(picture), "move it away, or give another folder with -o");
   if (is_inside(fs::current_path(error), folder))

@@ -32,7 +32,7 @@ bool is_first_call_for(const fs::path& folder) {
 }
 
 /// This machine since it was started, in machine_digits. A lock may hold on one machine alone (NFS with local_lock,
-/// Lustre with localflock), so that a file of another one seems to be nobody's.
+/// Lustre with localflock), so that a file of another one seems to be no one's.
 const std::string& this_machine() {
   static const std::string digits = fingerprint(identity_of_machine()).substr(0, machine_digits);
   return digits;

@@ -7,7 +7,7 @@
 
 namespace rheocyte {
 
-/// A hidden name in the same folder that nobody can foresee: ".NAME.rheocyte-9b3c1d70ff241f0c97aa52de", the machine
+/// A hidden name in the same folder that no one can foresee: ".NAME.rheocyte-9b3c1d70ff241f0c97aa52de", the machine
 /// first.
 std::filesystem::path scratch_beside(const std::filesystem::path& wanted);
 /// The place for which a hidden name was made; of another path the path itself.
@@ -32,7 +32,7 @@ void remove_scratch(const Scratch&);
 /// other machines may be in use.
 void remove_left_over_files(const std::filesystem::path& folder);
 
-/// The hidden folders of a place on which nobody works any more, each with a claim.
+/// The hidden folders of a place on which no one works any more, each with a claim.
 std::vector<Scratch> left_over_folders(const std::filesystem::path& place);
 
 }  // namespace rheocyte

@@ -12,7 +12,7 @@
 
 namespace rheocyte {
 
-/// What tells files from each other, and a file from what it was.
+/// What distinguishes files from each other, and a file from what it was.
 struct FileFacts {
   bool is_file = false, is_folder = false;
   std::uint64_t device = 0, number = 0, size = 0;
@@ -33,7 +33,7 @@ struct OpenFile {
   FileFacts facts = {};
 };
 
-/// Never waits, as it would for a pipe to which nobody writes.
+/// Never waits, as it would for a pipe to which no one writes.
 OpenFile open_to_read(const std::filesystem::path&);
 /// Makes the file or empties it, but not through a link.
 OpenFile open_to_write(const std::filesystem::path&);
@@ -54,7 +54,7 @@ int check_writable(const std::filesystem::path& folder);
 /// What is written there is gone, and nothing can be read from there.
 extern const char* const nowhere;
 
-/// A text that this machine keeps until it is started anew, and no other machine has.
+/// A text that this machine keeps until it is started again, and no other machine has.
 std::string identity_of_machine();
 
 }  // namespace rheocyte

@@ -121,7 +121,7 @@ int check_writable(const fs::path& folder) {
   return tried.failed;
 }
 
-/// Locks end with the machine, whose name and number need not change when it is started anew.
+/// Locks end with the machine, whose name and number need not change when it is started again.
 std::string identity_of_machine() {
   wchar_t number[64] = L"";
   DWORD bytes = sizeof number;

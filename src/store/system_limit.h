@@ -15,7 +15,7 @@ class SystemLimit final : public UserError {
  public:
   /// `what` is missing ("threads", "processes", "open files"), `reason` is the number of the error (errno).
   SystemLimit(std::string_view what, int reason);
-  /// What another process was told, which met the limit.
+  /// The sentence of another process, which met the limit.
   explicit SystemLimit(const std::string& sentence) : UserError(sentence) {}
 };
 

@@ -18,8 +18,8 @@ class Tasks {
   void add(int rank, Task);
 
   /// Does all tasks, those that are added meanwhile, too. The caller is thread 0; with one thread it does all of them,
-  /// and where the system gives fewer threads than wanted, those that there are do. The first exception of a task ends
-  /// the work: the tasks that wait are dropped, and it is thrown once no thread is left.
+  /// and where the system gives fewer threads than requested, those that there are do. The first exception of a task
+  /// ends the work: the tasks that wait are dropped, and it is thrown once no thread is left.
   void run(int threads);
 
   /// What the tasks have taken, added over the threads.

@@ -41,8 +41,8 @@ class Thread {
   std::optional<pthread_t> thread_;
 };
 
-/// In builds without threads what else is to be done meanwhile, such as to ask whether the work is still wanted: called
-/// between tasks (store/tasks.h) as long as this lives. Elsewhere never. One at a time.
+/// In builds without threads what else is to be done meanwhile, such as to ask whether the work is still requested:
+/// called between tasks (store/tasks.h) as long as this lives. Elsewhere never. One at a time.
 class BetweenTasks {
  public:
   explicit BetweenTasks(const std::function<void()>& look);
@@ -50,7 +50,7 @@ class BetweenTasks {
   BetweenTasks(const BetweenTasks&) = delete;
   BetweenTasks& operator=(const BetweenTasks&) = delete;
 };
-/// For whoever does tasks.
+/// For those who do tasks.
 void look_between_tasks();
 
 /// Threads that do work(0), work(1), ...: as many as the system gives, at most `wanted`. SystemLimit if it gives none.

@@ -1,4 +1,4 @@
-// Who watches long work: is told how far it has come, and may want its end. The solvers, which ask within their
+// Who watches long work: receives how far it has come, and may want its end. The solvers, which ask within their
 // innermost loops, have a flag in its place (fem/work_limits.h).
 #pragma once
 #include <functional>
@@ -12,9 +12,9 @@ struct Watch {
   TellProgress progress = [](double) {};              ///< what it throws ends the work and comes through
   std::function<bool()> stop = [] { return false; };  ///< asked several times a second
 
-  std::function<void()> alive = [] {};  ///< told at each step, for whoever takes silence for a hang
+  std::function<void()> alive = [] {};  ///< told at each step, for those who take silence for a hang
 
-  /// For work to call from step to step: StoppedBySignal once its end is wanted.
+  /// For work to call from step to step: StoppedBySignal once its end is requested.
   void go_on() const {
     alive();
     if (stop()) throw StoppedBySignal{};

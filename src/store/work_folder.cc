@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* mark_file = "begun-by.txt";
 constexpr const char* spec_file = "spec.toml";
-constexpr const char* beginning = "begun-by.claim";  ///< whoever holds it writes spec and mark
+constexpr const char* beginning = "begun-by.claim";  ///< its holder writes spec and mark
 
 std::string words_for(int number) { return std::generic_category().message(number); }
 
@@ -37,7 +37,7 @@ bool is_of_locks(int reason) {
 Claim locked(const fs::path& path, IfHeld if_held) {
   Claiming claiming = claim_on_mark(path, if_held);
   if (is_of_locks(claiming.failed))
-    refuse_path(path, fmt::format("cannot be locked ({}); put the table on a file system that knows locks, with -o.",
+    refuse_path(path, fmt::format("cannot be locked ({}); put the table on a file system with locks, with -o.",
                                   words_for(claiming.failed)));
   if (claiming.failed && claiming.failed != EWOULDBLOCK)
     refuse_path(path, fmt::format("cannot be made ({}).", words_for(claiming.failed)));
@@ -64,11 +64,9 @@ bool WorkFolder::is_begun() const {
   if (!fs::exists(folder_ / mark_file, error)) return false;
   const std::string found = content_of(folder_ / mark_file);
   if (found == wanted_.mark || (!found.empty() && found == wanted_.earlier_mark)) return true;
-  refuse_path(
-      folder_,
-      fmt::format("holds a table that was begun as \"{}\", not as \"{}\"; give another folder with -o, or the spec "
-                  "and program of the first start.",
-                  first_line(found), first_line(wanted_.mark)));
+  refuse_path(folder_, fmt::format("contains a table that was begun as \"{}\", not as \"{}\"; give another folder with "
+                                   "-o, or the spec and program of the first start.",
+                                   first_line(found), first_line(wanted_.mark)));
 }
 
 bool WorkFolder::holds_the_spec() const { return content_of(folder_ / spec_file) == wanted_.spec; }
@@ -82,7 +80,7 @@ void WorkFolder::begin() const {
   const bool has_files = !fs::is_directory(folder_, ignored) || !fs::is_empty(folder_, ignored);
   // With the claim beside them they are ours: of a process that begins at this moment, or was lost on the way.
   if (has_files && !fs::exists(folder_ / beginning, ignored) && !holds_the_spec())
-    refuse_path(folder_, "holds other files; give a new or empty folder with -o.");
+    refuse_path(folder_, "contains other files; give a new or empty folder with -o.");
   const Claim alone = locked(folder_ / beginning, IfHeld::wait);
   if (is_begun()) return;
   fs::create_directories(pieces(), error);

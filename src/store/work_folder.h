@@ -1,4 +1,4 @@
-// A folder in which several processes, on this machine or on others, do the pieces of one work: what is wanted, who
+// A folder in which several processes, on this machine or on others, do the pieces of one work: what is requested, who
 // works on which piece, and a record of each that is done.
 #pragma once
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace rheocyte {
 /// Every process that takes part must want the same records.
 struct WantedWork {
   std::string spec;          ///< content of spec.toml
-  std::string mark;          ///< one line: which records are wanted
+  std::string mark;          ///< one line: which records are requested
   std::string earlier_mark;  ///< of builds before; its records are read before it is replaced (take_over)
   std::string pieces;        ///< name of the folder of records and claims
 };

@@ -128,7 +128,7 @@ int take_descriptor(int socket) {
     if (child < 0) send_packet(socket, Word::limit, SystemLimit("processes", errno).what());
     ::close(socket);
   }
-  while (::waitpid(-1, nullptr, 0) > 0) {  // until all have noticed that nobody waits for them
+  while (::waitpid(-1, nullptr, 0) > 0) {  // until all have noticed that no one waits for them
   }
   std::error_code error;
   fs::remove_all(folder, error);
@@ -162,13 +162,13 @@ HostedWork::~HostedWork() {
   if (socket_ >= 0) ::close(socket_);
 }
 
-// A process that has ended is told of when its answer is read.
+// A process that has ended is reported when its answer is read.
 void HostedWork::ask(const std::string& request) const { send_request(socket_, request); }
 
 void HostedWork::read(const Take& take, const Watch& watch) {
   constexpr int look_ms = 50;
   for (;;) {
-    if (watch.stop()) throw UserError("Nobody waits any more for what was asked.");
+    if (watch.stop()) throw UserError("The request was cancelled.");
     const Packet packet = receive_packet(socket_, look_ms);
     switch (packet.word) {
       case Word::none: break;

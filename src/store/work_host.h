@@ -1,5 +1,5 @@
 // Work in processes of their own for a program that has threads: a fork of such a program is safe only for a program
-// that begins anew, so a host is forked while there is one thread yet, and forks for everybody from then on.
+// that starts again, so a host is forked while there is one thread yet, and forks for everybody from then on.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace rheocyte {
 
-/// To whom a process of the host answers. Once nobody listens any more, the process ends.
+/// To whom a process of the host answers. Once no one listens any more, the process ends.
 class WorkReply {
  public:
   explicit WorkReply(int socket) : socket_(socket) {}
@@ -26,18 +26,18 @@ class WorkReply {
   bool is_wanted() const;
   /// For work that stays: what was given so far is a whole answer.
   void end_answer() const;
-  /// What is asked next (HostedWork::ask), however long that takes; nothing once nobody listens any more.
+  /// What is asked next (HostedWork::ask), however long that takes; nothing once no one listens any more.
   std::optional<std::string> next_request() const;
 
-  /// What work that stays has made for all questions. In builds without processes it begins anew with each of them, and
-  /// finds this again.
+  /// What work that stays has made for all questions. In builds without processes it starts again with each of them,
+  /// and finds this again.
   template <class State, class... Given>
   State& kept(const Given&... given) const {
     if (!kept_) kept_ = std::make_shared<State>(given...);
     return *std::static_pointer_cast<State>(kept_);
   }
 
-  /// What may break its process, in another one (run_isolated_bytes): it gives pieces itself and tells its progress.
+  /// What may break its process, in another one (run_isolated_bytes): it gives pieces itself and reports its progress.
   /// `file` is what it reads, for the sentence. UserError.
   void run_isolated(const std::filesystem::path& file, const std::function<void(const TellProgress&)>& work,
                     const Isolation& limits = {}) const;
@@ -71,7 +71,7 @@ class HostedWork {
 
 class WorkHost {
  public:
-  /// UserError of the work is told to whoever asked.
+  /// UserError of the work is reported to the caller.
   using Work = std::function<void(const std::string& request, const WorkReply&)>;
 
   /// Forks; the process must have a single thread. The host calls `prepare` once.

@@ -95,7 +95,7 @@ bool WorkReply::is_wanted() const {
 
 void WorkReply::end_answer() const {}
 
-/// Work that stays ends after each answer, and begins anew with the next question.
+/// Work that stays ends after each answer, and starts again with the next question.
 std::optional<std::string> WorkReply::next_request() const {
   auto& questions = tasks().at(socket_).questions;
   if (questions.empty()) return std::nullopt;

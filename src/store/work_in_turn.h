@@ -1,4 +1,4 @@
-// Pieces of work that another thread does in turn, while whoever gives them goes on.
+// Pieces of work that another thread does in turn, while the thread that gives them goes on.
 #pragma once
 #include <condition_variable>
 #include <deque>
@@ -24,7 +24,7 @@ class WorkInTurn {
   /// Does the piece after those before it, by itself where the system has no thread for it. Waits while most_waiting
   /// pieces wait. Throws what an earlier piece has thrown; then no other one is done any more.
   void add(Piece piece);
-  /// Waits until all are done. Throws likewise.
+  /// Waits until all are done. Throws in the same way.
   void finish();
 
  private:

@@ -11,7 +11,7 @@
 namespace rheocyte {
 namespace {
 
-/// Times the wanted error: what a sample may be off the polynomial through those around it, and what one sample less
+/// Times the requested error: what a sample may be off the polynomial through those around it, and what one sample less
 /// may change in the middle of an interval.
 constexpr double largest_miss = 50, largest_change = 2;
 constexpr double shorter = 0.75;

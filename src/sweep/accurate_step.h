@@ -18,7 +18,7 @@ struct InitialGrowth {
 
 /// The largest step in ln(compliance) from the last but one of at least three samples, at most `limit`, behind which
 /// the dense output (SampledBranch) errs by no more than `wanted` in the value. The derivative to which the error is
-/// proportional is that which tells how far this sample is from the polynomial through those around it. As this may
+/// proportional is that which shows how far this sample is from the polynomial through those around it. As this may
 /// vanish by chance, polynomials through one sample less are looked at, too; if they are far off, the step is somewhat
 /// smaller than that to the last sample.
 double accurate_step(std::span<const SamplePoint>, InitialGrowth, double wanted, double limit);

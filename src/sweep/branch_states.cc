@@ -13,7 +13,7 @@ namespace {
 
 /// Of the admitted error; a state that is less accurate is solved on the next level, if it is there.
 constexpr double wanted_fraction = 0.5;
-/// Of Newton's method; on the level before, whose state only tells the error, less will do.
+/// Of Newton's method; on the level before, whose state only gives the error, less will do.
 constexpr double tolerance = 1e-10, tolerance_before = 1e-8;
 /// Of bare surfaces, and of bent ones, whose meshes are fitted on the way: each try takes seconds there.
 constexpr double least_advance_of_bare = 1e-3, least_advance_of_bent = 0.01;

@@ -21,8 +21,9 @@ struct BranchNode {
   MeasuredState state;
   Eigen::VectorXd slope;  ///< d(value)/du
   Eigen::MatrixX2d contour_slope;
-  double progress_before = 0;  ///< what tells how far the flow has deformed the cell, on the level before; 0: unknown
-  double error = 0;            ///< estimated, relative, of what tells how far the flow has deformed the cell
+  double progress_before =
+      0;             ///< what measures how far the flow has deformed the cell, on the level before; 0: unknown
+  double error = 0;  ///< estimated, relative, of what measures how far the flow has deformed the cell
 
   double at(Measure m) const { return state.value(int(m)); }
 };
@@ -54,8 +55,8 @@ class BranchStates {
   Way advance(const BranchNode& from, double u);
   /// The state between two measured ones, at the resolution of the second.
   Way between(const BranchNode& a, const BranchNode& b, double u);
-  /// Relative, of what tells how far the flow has deformed the cell: the spec's accuracy, and more where the branch is
-  /// so steep that the modulus is as accurate for all that.
+  /// Relative, of what measures how far the flow has deformed the cell: the spec's accuracy, and more where the branch
+  /// is so steep that the modulus is as accurate for all that.
   double admitted_error(const BranchNode& node) const;
   /// Measures a state with its slopes and its error, on finer meshes if need be; false if it is not accurate.
   bool measure(BranchNode&);
@@ -93,7 +94,7 @@ class BranchStates {
 
   TableSpec spec_;
   SweepPoint place_;
-  double axial_ratio_;  ///< that is wanted; the place's own is the one that is reached
+  double axial_ratio_;  ///< that is requested; the place's own is the one that is reached
   NewtonOptions newton_;
   double first_stiffness_ = 1;
   std::vector<std::unique_ptr<BranchMeshes>> meshes_;  ///< the last one is that of the states ahead

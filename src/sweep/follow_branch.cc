@@ -17,16 +17,16 @@ constexpr double first_step = 1, first_regularised_step = 0.08, max_step = 1.6;
 constexpr int max_unsampled = 4;
 /// Of the step that the last interval would have allowed: towards its end a branch needs ever smaller ones.
 constexpr double growth = 0.75;
-/// A step that is longer than allowed by more than this is taken anew; the error grows with its eighth power.
+/// A step that is longer than allowed by more than this is taken again; the error grows with its eighth power.
 constexpr double excess = 1.1;
-/// Growth while one interval alone says nothing of the next: a state far beyond the wanted ones is dear.
+/// Growth while one interval alone says nothing of the next: a state far beyond the requested ones is dear.
 constexpr double first_growth = 2;
 /// A branch that is steeper than this (-d ln d / d ln E, of elongated cells that of the third mode) nears a fold: finer
 /// meshes would not go farther.
 constexpr double steep = 4;
 /// A bare branch ends where the margin of its surface's stability has come down to this; half of it is aimed at.
 constexpr double end_margin = 0.01;
-/// A branch that is steeper than this turns back: softer cells are drawn out without limit.
+/// A branch that is steeper than this turns back: softer cells are elongated without limit.
 constexpr double turning = 12;
 /// Of one interval of the compliance over the one before.
 constexpr double interval_growth = 2;

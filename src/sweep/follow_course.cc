@@ -60,10 +60,11 @@ Eigen::MatrixXd at_places(const std::vector<Seen>& seen, const TimeRun& run, int
 }
 
 std::string told_of_margin(double margin, const Problem& problem) {
-  return fmt::format(" Behind the contraction its {} (stability_margin {:.2g}), which the model does not follow; {}",
-                     surface_kind(problem) == SurfaceKind::held ? "cortex has lost its resistance to compression"
-                                                                : "surface is beyond the limit against short wrinkles",
-                     margin, ways_to_stability(surface_kind(problem), true));
+  return fmt::format(
+      " Downstream of the contraction its {} (stability_margin {:.2g}), which the model does not follow; {}",
+      surface_kind(problem) == SurfaceKind::held ? "cortex has lost its resistance to compression"
+                                                 : "surface is beyond the limit against short wrinkles",
+      margin, ways_to_stability(surface_kind(problem), true));
 }
 
 }  // namespace

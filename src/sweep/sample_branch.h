@@ -1,4 +1,4 @@
-// Samples of one branch of a table, each a state within the wanted accuracy, stiff to soft (docs/theory.md, sec.
+// Samples of one branch of a table, each a state within the requested accuracy, stiff to soft (docs/theory.md, sec.
 // "tables"; docs/tables.md, sec. "Square channels").
 #pragma once
 #include <atomic>

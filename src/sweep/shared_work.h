@@ -35,7 +35,7 @@ Rank rank_from_environment();
 /// --cpus-per-task or by a binding to a part of the machine, else one.
 int available_processors(const Rank& = {});
 
-/// What is told meanwhile, by the thread that called.
+/// What is reported meanwhile, by the thread that called.
 struct WorkObserver {
   std::function<void(int done)> done;  ///< several times a second
   std::function<void()> waits;         ///< once, when all that is left is computed by other processes

@@ -1,4 +1,4 @@
-// Virtual solids that the liquid draws out along the flow, or that are long at rest, by a table of elongated cells.
+// Virtual solids that the liquid elongates along the flow, or that are long at rest, by a table of elongated cells.
 #pragma once
 #include "case/channel_flow.h"
 #include "synth/cell_shapes.h"

@@ -49,9 +49,9 @@ constexpr std::string_view ratio = "cell.cortex.tension_ratio", tension = "cell.
 Keys recording_keys() {
   return {
       key<&Spec::cells>(
-          {"recording.cells", "", "how many cells are drawn from the population", Number{{1, 1e7}, true}, 500.0}),
-      key<&Spec::seed>(
-          {"recording.seed", "", "of the random numbers; equal seeds give equal files", Number{{0, 9e15}, true}, 1.0}),
+          {"recording.cells", "", "number of cells drawn from the population", Number{{1, 1e7}, true}, 500.0}),
+      key<&Spec::seed>({"recording.seed", "", "seed of the random numbers; equal seeds give equal files",
+                        Number{{0, 9e15}, true}, 1.0}),
       key<&Spec::pixel_size_um>({"recording.pixel_size_um",
                                  "um",
                                  "size of a pixel",
@@ -62,7 +62,7 @@ Keys recording_keys() {
                                  "--pixel-size-um",
                                  "--pixel-size"}),
       key<&Spec::pictures>({"recording.pictures", "",
-                            "what is stored besides the features; images: masks and pictures in shades of grey",
+                            "data stored in addition to the features; images: masks and pictures in shades of grey",
                             Choice{{"none", "masks", "images"}}, 1}),
       key<&Spec::width_px>({"recording.width_px", "pixels", "width of the pictures, along the channel",
                             Number{{16, 2000}, true}, 250.0}),
@@ -73,8 +73,8 @@ Keys recording_keys() {
       key<&Spec::cells_per_s>(
           {"recording.cells_per_s", "1/s", "mean rate at which cells arrive", Number{{1e-3, 1e5}}, 100.0}),
       key<&Spec::places_um>({"recording.places_um", "um",
-                             "places behind the contraction at which each cell is seen, with a dynamic table; pos_x is "
-                             "the place, so the pictures must be wide enough",
+                             "places downstream of the contraction at which each cell is seen, with a dynamic table; "
+                             "pos_x is the place, so the pictures must be wide enough",
                              List{{0, 1e6}, true}, absent}),
       key<&Spec::sample>({"recording.sample", "", "name of the sample", Word{}, "virtual cells"}),
       key<&Spec::date>({"recording.date", "", "YYYY-MM-DD", Word{}, "2026-01-01"}),
@@ -87,10 +87,10 @@ Keys flow_keys() {
       shared<&Spec::channel_width_um>("channel.width_um", "width of the square channel"),
       shared<&Spec::flow_rate_ul_s>("flow.rate_ul_per_s", "flow rate, sheath and sample together"),
       shared<&Spec::viscosity_mPas>("flow.viscosity_mPas", "viscosity of the liquid", {}, "flow.medium"),
-      spread<&Spec::axial_tension_Pa>("flow.axial_tension_Pa",
-                                      "tension of the liquid along the flow, which draws cells out, with a table of "
-                                      "elongated ones",
-                                      absent, "", by_table),
+      spread<&Spec::axial_tension_Pa>(
+          "flow.axial_tension_Pa",
+          "tension of the liquid along the flow, which elongates the cells; with a table of elongated cells", absent,
+          "", by_table),
       key<&Spec::medium>({"flow.medium",
                           "",
                           "liquid of known viscosity: CellCarrier, CellCarrierB, 0.83% MC-PBS, water, ...",
@@ -98,7 +98,7 @@ Keys flow_keys() {
                           required,
                           {},
                           "flow.viscosity_mPas"}),
-      key<&Spec::viscosity_model>({"flow.viscosity_model", "", "how the viscosity of the medium follows",
+      key<&Spec::viscosity_model>({"flow.viscosity_model", "", "model of the viscosity of the medium",
                                    Choice{{"buyukurganci-2022", "herold-2017", "kestin-1978"}}, 0, by_medium}),
       key<&Spec::temperature_C>({"flow.temperature_C", "degC", "temperature of the medium at each cell",
                                  Scatter{{0, 60}}, Spread{.mean = 23}, by_medium}),
@@ -122,12 +122,12 @@ Keys cell_keys() {
       spread<&Spec::viscosity_of_cell_mPas>("cell.viscosity_mPas",
                                             "viscosity of the cells' interior, with recording.places_um", absent, ""),
       spread<&Spec::rest_aspect>("cell.rest_aspect",
-                                 "length over width of the spheroid in which the cell is free of stress, with a table "
-                                 "of such cells (table.elongated_by = \"rest-shape\")",
+                                 "length over width of the stress-free cell, a spheroid, with a table of such cells "
+                                 "(table.elongated_by = \"rest-shape\")",
                                  absent, "", by_table),
       key<&Spec::added_ellipse>({"cell.added_ellipse", "",
                                  "mode c_2 added to each outline after the model, e.g. 0.1: an elongation along the "
-                                 "flow as many real cells have it (docs/real-cells.md); true values are those before",
+                                 "flow as in many real cells (docs/real-cells.md); true values do not include it",
                                  Number{{-0.3, 0.5}}, 0.0}),
   };
 }
@@ -135,24 +135,22 @@ Keys cell_keys() {
 Keys shape_keys() {
   return {
       key<&Spec::analytical>({"shapes.model", "",
-                              "where the shapes come from: a table, or the analytical model of small deformations "
-                              "(linear solids and shells in the tube)",
+                              "source of the shapes: a table, or the analytical model of small deformations (linear "
+                              "solids and shells in the tube)",
                               Choice{{"table", "analytical"}}, 0}),
-      key<&Spec::table>(
-          {"shapes.table", "",
-           "folder of a table by `rheocyte table`, seen from the spec, a dynamic one with "
-           "recording.places_um; or a table of the program, by its name or file. Without it that by which "
-           "`rheocyte extract` reads the moduli of solids in this liquid, `rheocyte moduli` those of combined cells, "
-           "or `rheocyte time-course` those of cells at recording.places_um",
-           Word{}, absent, by_table}),
-      key<&Spec::max_deformation>(
-          renamed({"shapes.max_deformation", "",
-                   "cells that the model would deform more are left out; 0: where it holds, 0.02 "
-                   "for solids, 0.001 for shells",
-                   Number{{0, 0.1}}, 0.0, by_model},
-                  "shapes.greatest_deformation")),
+      key<&Spec::table>({"shapes.table", "",
+                         "folder of a table by `rheocyte table`, relative to the spec, a dynamic one with "
+                         "recording.places_um; or a table of the program, by its name or file. Default: the table that "
+                         "`rheocyte extract` uses for solids in this liquid, `rheocyte moduli` for combined cells, or "
+                         "`rheocyte time-course` for cells at recording.places_um",
+                         Word{}, absent, by_table}),
+      key<&Spec::max_deformation>(renamed({"shapes.max_deformation", "",
+                                           "maximum deformation by the model, beyond which cells are left out; 0: "
+                                           "limit of its validity, 0.02 for solids, 0.001 for shells",
+                                           Number{{0, 0.1}}, 0.0, by_model},
+                                          "shapes.greatest_deformation")),
       key<&Spec::square_duct>({"shapes.duct", "",
-                               "whose velocity on the axis drives the cells: that of the equivalent tube, or of the "
+                               "channel whose velocity on the axis drives the cells: the equivalent tube, or the "
                                "square channel as in the published analytical tables",
                                Choice{{"tube", "square"}}, 0, by_model}),
   };

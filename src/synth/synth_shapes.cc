@@ -120,7 +120,7 @@ std::unique_ptr<CellShapes> shapes_of_grid(SynthSpec& spec) {
                 "shapes come from a grid of solids only, so cell.kind must be \"solid\"; of other cells give "
                 "the folder of a table.");
   if (!grid.shapes)
-    refuse_path(spec.table, "does not say what its cells look like; compute it anew with `rheocyte table`.");
+    refuse_path(spec.table, "does not contain the shapes of its cells; compute it again with `rheocyte table`.");
   if (spec.is_on_its_way()) refuse_path(spec.table, is_stationary);
   spec.made_of = grid.origin.cells();
   return std::make_unique<GridShapes>(std::move(grid), ChannelFlow{spec.channel_width_um, spec.flow_rate_ul_s});
@@ -143,7 +143,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   if (folder.spec().is_combined()) return shapes_of_combined_table(spec, folder);
   if (folder.spec().is_elongated()) {
     const fs::path elongated = spec.table / to_path(elongated_file_name(folder.spec().identifier));
-    if (!fs::exists(elongated, error)) refuse_path(spec.table, "is not finished; let `rheocyte table` go on.");
+    if (!fs::exists(elongated, error)) refuse_path(spec.table, "is not finished; continue `rheocyte table`.");
     return shapes_of_elongated(spec, elongated);
   }
   const bool is_shell = folder.spec().sweeps_cortex();
@@ -153,7 +153,7 @@ std::unique_ptr<CellShapes> shapes_of_table(SynthSpec& spec) {
   auto branches = folder.spec().is_square() ? folder.all_branches() : finished_branches(folder);
   std::set<double> radii;
   for (const auto& branch : branches) radii.insert(branch.radius_um);
-  if (radii.size() < 2) refuse_path(spec.table, "has fewer than two finished branches; let `rheocyte table` go on.");
+  if (radii.size() < 2) refuse_path(spec.table, "has fewer than two finished branches; continue `rheocyte table`.");
   return std::make_unique<BranchShapes>(std::move(branches), simulated_cells(spec, folder.spec().base));
 }
 

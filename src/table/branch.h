@@ -52,7 +52,7 @@ struct BranchEnd {
 /// The end with its sentence.
 BranchEnd end_of(Status status);
 
-/// Samples from stiff to soft; every row of the matrices is one converged state within the wanted accuracy.
+/// Samples from stiff to soft; every row of the matrices is one converged state within the requested accuracy.
 struct SampledBranch {
   double radius_um = 0;    ///< of the sphere at rest
   double bending_kBT = 0;  ///< that holds the last sample's surface beyond the bare branch; 0: the case's own branch
@@ -66,7 +66,7 @@ struct SampledBranch {
   int solves = 0, newton_iterations = 0, refused = 0;  ///< refused: states that were wrinkled or not accurate
   double seconds = 0, factorisation_seconds = 0;
   double cortex_fraction = 0, tension_ratio = 0;  ///< of combined cells, see SweepPoint
-  double axial_ratio = 0;                         ///< of elongated cells, likewise
+  double axial_ratio = 0;                         ///< of elongated cells; as above
 
   bool empty() const { return stiffness.empty(); }
   int samples() const { return int(stiffness.size()); }

@@ -16,7 +16,7 @@ std::string family_of(const SampledBranch&);
 /// that one of them does not have.
 SampledBranch branch_between(const TableSpec&, std::span<const SampledBranch* const> near, double radius_um);
 
-/// How far a branch is from what such polynomials through others (likewise) predict.
+/// How far a branch is from what such polynomials through others (the same) predict.
 struct BranchDifference {
   double stiffness = 0;  ///< greatest, relative, at deformations that both have
   double end = 0;        ///< of the last deformations, relative; 0 where the branch covers the table's ranges

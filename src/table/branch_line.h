@@ -18,10 +18,11 @@ class BranchLine {
 
   std::size_t gaps() const { return nodes_.size() - 1; }
   int place(std::size_t node) const { return nodes_[node].place; }
-  /// Whether polynomials across a gap are accurate: its two ends, or the one of which this can be told, are what the
-  /// other branches predict.
+  /// Whether polynomials across a gap are accurate: its two ends, or the one of which this can be determined, are what
+  /// the other branches predict.
   bool is_smooth(std::size_t gap) const;
-  /// The branch of a radius in a smooth gap; empty where its neighbours have no states, nothing if it cannot be told.
+  /// The branch of a radius in a smooth gap; empty where its neighbours have no states, nothing if it cannot be
+  /// determined.
   std::shared_ptr<const SampledBranch> between(std::size_t gap, double radius_um) const;
 
  private:

@@ -11,8 +11,8 @@
 
 namespace rheocyte {
 
-/// What a record is, in which version of its layout, what a user calls it, how it is made anew, and which older version
-/// is read as well, if any.
+/// What a record is, in which version of its layout, what a user calls it, how it is made again, and which older
+/// version is read as well, if any.
 struct RecordKind {
   std::string_view kind, format, noun, way_out, older_format = {};
 };

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr RecordKind combined_kind{"rheocyte combined cells", "1", "combined table",
-                                   "`rheocyte table` with the table's spec writes it anew"};
+                                   "`rheocyte table` with the table's spec writes it again"};
 constexpr std::size_t place_numbers = 4, max_branches = 100000, max_samples = 10000;
 
 using Features = Eigen::Matrix<double, Eigen::Dynamic, feature_count, Eigen::RowMajor>;
@@ -50,7 +50,7 @@ CombinedTable combined_in(const OpenedRecord& opened, const std::string& name) {
   CombinedTable table{parse_table_spec(opened.record.at("spec").get<std::string>(), name), {}};
   const json& branches = opened.record.at("branches");
   check_record(table.spec.is_combined() && branches.is_array() && !branches.empty() && branches.size() <= max_branches,
-               "it does not hold what its spec says");
+               "its content does not agree with its spec");
   for (const json& record : branches) {
     const CombinedBranch& branch = table.branches.emplace_back(branch_in(record));
     const std::string_view reason = why_no_branch(branch);

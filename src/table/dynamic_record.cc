@@ -68,7 +68,7 @@ CellCourse course_of(const json& record, const DynamicCell& wanted) {
   course.value = Eigen::Map<const Eigen::MatrixXd>(values.data(), Eigen::Index(places), course_measures);
   check_record(is_cell(course.cell, wanted), "a cell is not the one that its spec has in this place");
   check_record(course.status != Status::converged || is_possible(course.value),
-               "the way of a cell holds numbers that no cell has");
+               "the way of a cell contains numbers that no cell has");
   return course;
 }
 
@@ -77,7 +77,7 @@ DynamicContent dynamic_content(std::string_view bytes, const std::string& file) 
   DynamicContent content{
       parse_dynamic_spec(opened.record.at("spec").get<std::string>(), file), opened.record.at("program"), {}};
   const DynamicSpec& spec = content.spec;
-  constexpr const char* other = "it does not hold what its spec says";
+  constexpr const char* other = "its content does not agree with its spec";
   const json& courses = opened.record.at("courses");
   const std::vector<DynamicCell> wanted = cells_of(spec);
   check_record(opened.spec_hash == spec_hash(spec) && courses.size() == wanted.size(), other);

@@ -45,26 +45,29 @@ const std::array all_dynamic_keys = {
     dynamic_key<&Dynamic::max_young_modulus_kPa>({"dynamic.max_young_modulus_kPa", "kPa",
                                                   "Young's modulus of the stiffest of the largest cells",
                                                   Number{{1e-6, 1e9}}}),
-    dynamic_key<&Dynamic::min_time_ms>(
-        {"dynamic.min_time_ms", "ms", "least 3 x viscosity / Young's modulus of the cells", Number{{1e-6, 1e6}}, 0.05}),
+    dynamic_key<&Dynamic::min_time_ms>({"dynamic.min_time_ms", "ms",
+                                        "minimum 3 x viscosity / Young's modulus of the cells", Number{{1e-6, 1e6}},
+                                        0.05}),
     dynamic_key<&Dynamic::max_time_ms>({"dynamic.max_time_ms", "ms",
-                                        "greatest 3 x viscosity / Young's modulus of the cells", Number{{1e-6, 1e6}},
+                                        "maximum 3 x viscosity / Young's modulus of the cells", Number{{1e-6, 1e6}},
                                         10.0}),
     dynamic_key<&Dynamic::first_um>(
-        {"dynamic.first_um", "um", "first place, from the end of the contraction on", Number{{0, 1e6}}, 10.0}),
+        {"dynamic.first_um", "um", "first place, measured from the end of the contraction", Number{{0, 1e6}}, 10.0}),
     dynamic_key<&Dynamic::last_um>(
-        {"dynamic.last_um", "um", "last place, from the end of the contraction on", Number{{0, 1e6}}, 310.0}),
-    dynamic_key<&Dynamic::radii>({"dynamic.radii", "", "radii that are computed", Number{{2, 30}, true}, 4.0}),
+        {"dynamic.last_um", "um", "last place, measured from the end of the contraction", Number{{0, 1e6}}, 310.0}),
+    dynamic_key<&Dynamic::radii>(
+        {"dynamic.radii", "", "number of radii that are computed", Number{{2, 30}, true}, 4.0}),
     dynamic_key<&Dynamic::moduli>(
-        {"dynamic.moduli", "", "moduli that are computed for each radius", Number{{2, 30}, true}, 5.0}),
+        {"dynamic.moduli", "", "number of moduli that are computed for each radius", Number{{2, 30}, true}, 5.0}),
     dynamic_key<&Dynamic::times>({"dynamic.times", "",
-                                  "times 3 x viscosity / Young's modulus that are computed for each of these",
+                                  "number of times 3 x viscosity / Young's modulus that are computed for each of these",
                                   Number{{2, 30}, true}, 12.0}),
     dynamic_key<&Dynamic::places>(
-        {"dynamic.places", "", "places that are kept of each cell's way", Number{{4, 1000}, true}, 31.0}),
-    dynamic_key<&Dynamic::checks>({"dynamic.checks", "",
-                                   "cells between the others that are computed to tell the error of the interpolation",
-                                   Number{{0, 1000}, true}, 8.0}),
+        {"dynamic.places", "", "number of places at which each cell is stored", Number{{4, 1000}, true}, 31.0}),
+    dynamic_key<&Dynamic::checks>(
+        {"dynamic.checks", "",
+         "number of additional cells between the others, to estimate the error of the interpolation",
+         Number{{0, 1000}, true}, 8.0}),
 };
 
 void refuse_keys_of_table(const KeyReading& keys) {

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr RecordKind elongated_kind{"rheocyte elongated cells", "1", "table of elongated cells",
-                                    "`rheocyte table` with the table's spec writes it anew"};
+                                    "`rheocyte table` with the table's spec writes it again"};
 constexpr const char* at_rest_key = "are_long_at_rest";  // only of those
 constexpr int fewest_nodes = 4, max_nodes = 100;
 constexpr double largest_ratio = 10;  // tensions over moduli are far below

@@ -1,4 +1,4 @@
-// Solids that are drawn out along the flow: a table with one number more (docs/tables.md, sec. "elongated cells").
+// Solids that are elongated along the flow: a table with one number more (docs/tables.md, sec. "elongated cells").
 #pragma once
 #include <Eigen/Core>
 #include <array>

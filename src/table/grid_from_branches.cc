@@ -190,7 +190,7 @@ class PatchMaker {
   Columns columns_;
 };
 
-// Bending makes cells stiffer: moduli drop by some percent where it takes over, and nobody knows the bending of a cell.
+// Bending makes cells stiffer: moduli drop by some percent where it takes over, and no one knows the bending of a cell.
 void add_step_to_error(const GridPatch& bare, GridPatch& regularised) {
   for (int c = 0; c < regularised.columns; ++c) {
     const int under = regularised.first_column + c - bare.first_column;

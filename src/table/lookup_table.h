@@ -59,7 +59,7 @@ std::vector<LutNode> text_places(const TableSpec&);
 LookupTable make_lookup_table(const TableSpec& spec, std::span<const SampledBranch> branches, std::string_view version);
 
 /// The table in dclab's format, by columns of equal size. For areas they are text_places(), and the stiffness is
-/// interpolated between the branches; for volumes they are the radii, staggered likewise.
+/// interpolated between the branches; for volumes they are the radii, staggered in the same way.
 std::string lut_text(const LookupTable&, Abscissa);
 
 /// All measures of all rows with the shortest digits that give back the same numbers.

@@ -1,4 +1,4 @@
-// Why a table does not tell the stiffness of a cell.
+// Why a table does not determine the stiffness of a cell.
 #pragma once
 #include <string_view>
 

@@ -22,7 +22,7 @@ struct BranchTask {
 bool can_be_regularised(const TableSpec&, const SampledBranch& own);
 
 /// First some radii, denser towards both ends; then, round by round, those in the middle of neighbours between which
-/// polynomials are not accurate. The choice depends on finished records alone: whoever takes part makes the same one.
+/// polynomials are not accurate. The choice depends on finished records alone: all that take part make the same one.
 /// Of combined cells, and in a square channel, all branches are computed.
 class RadiusPlan {
  public:
@@ -45,13 +45,13 @@ class RadiusPlan {
   /// Round by round; true if no branch of this kind is unknown any more.
   bool settle(bool regularised);
   std::vector<int> places_at_first() const;
-  /// Whether the held branch of a place is wanted; nothing while that is not known.
+  /// Whether the held branch of a place is requested; nothing while that is not known.
   std::optional<bool> wants_regularised(int place) const;
   /// Adds the branches of some places to the nodes; false if some are missing.
   bool find(const std::vector<int>& places, bool regularised, Nodes& nodes);
   /// The places that are computed next; none once the branches between the nodes are known.
   std::vector<int> next_places(const Nodes& nodes, bool regularised);
-  /// Tells the branches between the nodes; returns the places where that cannot be done.
+  /// Computes the branches between the nodes; returns the places where that cannot be done.
   std::vector<int> lie_between(const BranchLine&, bool regularised);
 
   TableSpec spec_;

@@ -62,7 +62,7 @@ std::string text_of(const ChannelFlow& at) {
   return fmt::format("{:g} um, {:g} uL/s, {:g} mPa s", at.width_um, at.rate_ul_s, at.viscosity_mPas);
 }
 
-// The consistency that gives the wanted effective viscosity at the wall; shear rates go as Q / W^3.
+// The consistency that gives the requested effective viscosity at the wall; shear rates go as Q / W^3.
 double consistency_factor(double exponent, const ChannelFlow& from, const ChannelFlow& to) {
   const double shear = to.rate_ul_s / from.rate_ul_s / scale_factors(from, to).volume;
   return to.viscosity_mPas / from.viscosity_mPas * std::pow(shear, 1 - exponent);
@@ -76,7 +76,7 @@ double factor_of(const Dimension& dimension, const ChannelFlow& from, const Chan
          std::pow(factor.modulus, dimension.stress);
 }
 
-// What a case keeps in another channel; doubts_of_scaling tells the consequence.
+// What a case keeps in another channel; doubts_of_scaling gives the consequence.
 bool is_kept(std::string_view key) { return key == "density_kg_per_m3" || key.ends_with("_kBT"); }
 
 // All numbers whose names end with a unit.
@@ -148,7 +148,7 @@ TableText scaled(const TableText& table, const ChannelFlow& to, std::string_view
   for (const auto& doubt : doubts_of_scaling(table, to)) comments.push_back(fmt::format("Not exact: {}.", doubt));
   if (const double effect = inertia_effect(table, to); effect > 0 && effect <= negligible_effect)
     comments.push_back(fmt::format("Inertia changes the deformation by about {:.1g} %.", 100 * effect));
-  comments.emplace_back("What the table said before:");
+  comments.emplace_back("Header of the original table:");
   comments.emplace_back();
   result.comments.insert(result.comments.begin(), comments.begin(), comments.end());
   scale_metadata(result.metadata, from, to);

@@ -148,7 +148,7 @@ std::vector<double> simulation_levels(const LookupTable& table, int count) {
 }
 
 std::string simulations_file(const LookupTable& table) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told by check()
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are reported by check()
   const auto file = make_file_in_memory();
   const auto root = checked(H5Gopen2(file.get(), "/", H5P_DEFAULT));
   write_metadata(root, table);

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr RecordKind grid_kind{"rheocyte grid", "2", "grid of a table",
-                               "`rheocyte table` with the table's spec writes it anew", "1"};
+                               "`rheocyte table` with the table's spec writes it again", "1"};
 constexpr int max_side = 10000;
 
 json record_of(const GridPatch& patch) {

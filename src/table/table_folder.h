@@ -1,4 +1,4 @@
-// The folder of a table while it is computed: one record per branch, and which branches are wanted.
+// The folder of a table while it is computed: one record per branch, and which branches are requested.
 #pragma once
 #include <filesystem>
 #include <mutex>
@@ -46,7 +46,7 @@ class TableFolder {
   SampledBranch read(int i, bool regularised) const;
   /// Computed or interpolated; only once that is known (asserted).
   SampledBranch branch(int i, bool regularised) const;
-  /// All branches of a complete table, in the order of the places; held ones where they are wanted. UserError naming
+  /// All branches of a complete table, in the order of the places; held ones where they are requested. UserError naming
   /// the file if a record is damaged or missing.
   std::vector<SampledBranch> read_all() const;
   /// As WorkFolder::tidy.

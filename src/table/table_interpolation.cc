@@ -57,7 +57,7 @@ class TableInterpolation::Query {
  private:
   struct Node {
     BranchPoint state;
-    double x, y;  ///< ln(size / wanted size), ln(stiffness)
+    double x, y;  ///< ln(size / requested size), ln(stiffness)
   };
 
   int count() const { return int(table_.radii_.size()); }
@@ -87,7 +87,7 @@ class TableInterpolation::Query {
     return Node{*state, std::log(state->measure(size_measure()) / size_), std::log(state->stiffness)};
   }
 
-  // Of the state with the wanted deformation, or of the nearest one that there is.
+  // Of the state with the requested deformation, or of the nearest one that there is.
   double size_near(int i) const {
     if (const auto state = radius(i).at_deformation(deformation_)) return state->measure(size_measure());
     const auto softest = radius(i).softest(), stiffest = radius(i).stiffest();
@@ -121,7 +121,7 @@ class TableInterpolation::Query {
 
   StiffnessAnswer between(int below, const Node& first, const Node& second) const {
     const auto nodes = stencil(below, first, second);
-    const auto best = lagrange_estimate(std::span<const Node>(nodes), 0, &Node::x, &Node::y);  // at the wanted size
+    const auto best = lagrange_estimate(std::span<const Node>(nodes), 0, &Node::x, &Node::y);  // at the requested size
     const auto [low, high] = std::minmax(first.y, second.y);
     const double value = std::clamp(best.value, low, high);
     const double states = std::max(stiffness_error(first.state), stiffness_error(second.state));

@@ -17,8 +17,8 @@ struct StiffnessAnswer {
   OutOfTable reason = OutOfTable::none;
 };
 
-/// A query takes from each neighbouring radius the state with the wanted deformation and puts a polynomial in ln(size)
-/// through up to six of them, whose value stays between those of the two neighbours.
+/// A query takes from each neighbouring radius the state with the requested deformation and puts a polynomial in
+/// ln(size) through up to six of them, whose value stays between those of the two neighbours.
 class TableInterpolation {
  public:
   /// The branches must outlive it.

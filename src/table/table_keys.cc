@@ -32,30 +32,30 @@ const std::array table = {
     key<&Spec::min_deformation>(
         renamed({"table.min_deformation", "", "deformation of the stiffest cells", Number{{1e-7, 0.9}}, 5e-5},
                 "table.least_deformation")),
-    key<&Spec::max_deformation>(renamed(
-        {"table.max_deformation", "",
-         "deformation of the softest cells; of elongated cells with bulk and cortex what the flow adds to that by "
-         "the tension",
-         Number{{1e-7, 0.9}}, 0.19},
-        "table.greatest_deformation")),
+    key<&Spec::max_deformation>(renamed({"table.max_deformation", "",
+                                         "deformation of the softest cells; for elongated cells with bulk and cortex "
+                                         "the part of the flow, in addition to that of the tension",
+                                         Number{{1e-7, 0.9}}, 0.19},
+                                        "table.greatest_deformation")),
     key<&Spec::radii>({"table.radii", "", "number of branches, equally spaced in the radius of the sphere",
                        Number{{2, 10000}, true}, 100.0}),
-    key<&Spec::rows_per_radius>({"table.rows_per_radius", "", "rows of a full branch, at deformations of equal ratio",
+    key<&Spec::rows_per_radius>({"table.rows_per_radius", "",
+                                 "number of rows of a full branch, at deformations of constant ratio",
                                  Number{{2, 10000}, true}, 120.0}),
     key<&Spec::accuracy>(
-        {"table.accuracy", "", "wanted relative accuracy of the deformation", Number{{1e-7, 1e-1}}, 2e-4}),
-    key<&Spec::bending_beyond_kBT>({"table.bending_beyond_kBT", "kBT",
-                                    "bending stiffness with which branches go on where the bare surface is unstable, "
-                                    "0 = they end there",
-                                    Number{{0, 1e12}}, 0.0}),
+        {"table.accuracy", "", "requested relative accuracy of the deformation", Number{{1e-7, 1e-1}}, 2e-4}),
+    key<&Spec::bending_beyond_kBT>(
+        {"table.bending_beyond_kBT", "kBT",
+         "bending stiffness with which branches continue where the bare surface is unstable, 0 = branches end there",
+         Number{{0, 1e12}}, 0.0}),
     key<&Spec::bending_beyond_ratio>(
         {"table.bending_beyond_ratio", "",
          "the same in a square channel, over E r0^3 or E2D r0^2 of the cell; 3e-5 changes "
          "d by less than 0.7 % where both exist, up to 1 % for cells above 280 um2 of a 20 um channel",
          Number{{0, max_bending_ratio}}, 0.0, square}),
     key<&Spec::bending_from_margin>({"table.bending_from_margin", "",
-                                     "margin of the bare surface, 1 at rest and 0 where it loses stability, from which "
-                                     "on bending_beyond_ratio holds it",
+                                     "stability margin of the bare surface, 1 at rest and 0 where it loses stability, "
+                                     "below which bending_beyond_ratio stabilises it",
                                      Number{{0, 0.9}}, 0.0, square}),
     key<&Spec::cortex_fractions>(renamed(
         {"table.cortex_fraction", "", "fractions of the cortex in the stiffness of combined cells, one sheet for each",
@@ -69,8 +69,8 @@ const std::array table = {
                               "stiffness: cells that are elongated; 0 must be among them",
                               List{{-0.5, 5}, true}, absent}),
     key<&Spec::elongation>({"table.elongated_by", "",
-                            "what makes the cells of table.axial_ratio long: the tension, or the shape at rest "
-                            "(cell.rest_aspect) into which that tension would draw a sphere where nothing flows",
+                            "cause of the elongation of the cells of table.axial_ratio: the tension, or the shape at "
+                            "rest (cell.rest_aspect) that a sphere would take under that tension without flow",
                             Choice{{"tension", "rest-shape"}}, 0, elongated}),
     key<&Spec::bending_ratio>({"table.bending_ratio", "",
                                "bending stiffness of combined cells over S r0^3, 0 = cell.cortex.bending_kBT",
@@ -80,13 +80,14 @@ const std::array table = {
                                              "which combined branches end",
                                              Number{{1e-7, 1}}, 1.0, combined},
                                             "table.greatest_deformation_raw")),
-    key<&Spec::computed_radii>({"table.computed_radii", "", "branches that are computed; all others lie between them",
+    key<&Spec::computed_radii>({"table.computed_radii", "",
+                                "number of branches that are computed; all others are interpolated",
                                 Number{{4, 30}, true}, 8.0, square}),
-    key<&Spec::computed_states>(
-        {"table.computed_states", "", "states that are computed on each of them", Number{{4, 20}, true}, 6.0, square}),
+    key<&Spec::computed_states>({"table.computed_states", "", "number of states that are computed on each of them",
+                                 Number{{4, 20}, true}, 6.0, square}),
     key<&Spec::tube_table>({"table.tube_table", "",
-                            "table of the tube, by whose ratio states are interpolated: an identifier of those that "
-                            "come with the program, or a file grid_*.cbor",
+                            "table of the tube, relative to which states are interpolated: identifier of a table of "
+                            "the program, or a file grid_*.cbor",
                             Word{}, absent, square}),
 };
 

@@ -15,7 +15,7 @@ constexpr double fraction_of_softest_line = 0.1;   // of the way from the least 
 
 double rounded(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
 
-// Of the rows at the greatest radius, the first that has the wanted fraction of the greatest deformation.
+// Of the rows at the greatest radius, the first that has the requested fraction of the greatest deformation.
 double stiffest_level(const LookupTable& table) {
   const double wanted = fraction_of_stiffest_line * table.spec.max_deformation;
   const TableRow* best = nullptr;

@@ -27,7 +27,7 @@ struct TableOrigin {
 /// model is.
 std::string cells_in_words(std::string_view model, Section section);
 
-/// What tells which recordings a grid is for.
+/// What determines which recordings a grid is for.
 struct GridHead {
   double flow_exponent = 1;
   Section section = Section::tube;

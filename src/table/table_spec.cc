@@ -122,10 +122,9 @@ void refuse_swept_keys(const TableSpec& spec, const KeyReading& keys) {
   refuse("channel.camera_degree", "is not for tables; choose channel.camera");
   const auto* bending = keys.value(bending_key);
   if (keys.chosen(channel_section_key) == "square" && bending && std::get<double>(*bending) > 0)
-    refuse(bending_key,
-           fmt::format("is not for tables of square channels, whose small cells it would hold far more than "
-                       "large ones; choose {}",
-                       beyond_ratio_key));
+    refuse(bending_key, fmt::format("is not for tables of square channels, whose small cells it would stabilise far "
+                                    "more than large ones; choose {}",
+                                    beyond_ratio_key));
   for (const auto key : {drive_key, std::string_view("flow.pressure_drop_Pa")})
     refuse(key, "must not be given, because a table is that of one flow rate; choose flow.rate_ul_per_s");
 }
@@ -188,10 +187,9 @@ void check_bending(const TableSpec& spec, const KeyReading& keys) {
 void check_elongation(const TableSpec& spec, const KeyReading& keys) {
   if (!spec.is_elongated()) return;
   if (spec.base.cell.bulk.law == BulkLaw::fung)
-    keys.refuse(axial_key,
-                fmt::format("{} is not for cell.bulk.law = \"fung\", because elongations are told as those of "
-                            "a neo-Hookean solid; choose another law or leave it out.",
-                            axial_key));
+    keys.refuse(axial_key, fmt::format("{} is not for cell.bulk.law = \"fung\", because elongations are expressed as "
+                                       "those of a neo-Hookean solid; choose another law or leave it out.",
+                                       axial_key));
   if (!spec.is_combined() && (!spec.is_square() || spec.sweeps_cortex()))
     keys.refuse(axial_key, fmt::format("{} is for solids in the square channel (channel.section = \"square\"), and for "
                                        "cells with bulk and cortex (table.cortex_fraction).",

@@ -57,7 +57,7 @@ class TextReader {
       else
         take_row(trim(line));
     }
-    if (table_.rows.empty()) refuse(name_, "holds no rows; is it a look-up table in dclab's format?");
+    if (table_.rows.empty()) refuse(name_, "contains no rows; is it a look-up table in dclab's format?");
     return std::move(table_);
   }
 

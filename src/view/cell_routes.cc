@@ -52,7 +52,7 @@ Result stationary(const Case& c) {
   return {c, scales_of(c), problem_of(c), {}};
 }
 
-/// Refused (409) if a later request of the stream has come, (503) if nobody waits any more.
+/// Refused (409) if a later request of the stream has come, (503) if no one waits any more.
 void solve(SolverThreads& threads, const Request& request,
            const std::function<void(Session&, const std::atomic<bool>&)>& work) {
   const JobEnd end = threads.run({request.asked("stream"), request, work});
@@ -142,7 +142,7 @@ std::filesystem::path export_picture(const Json& wish, const Request&, ExportFol
 void add_cell_routes(const ViewContext& view) {
   constexpr int most = 32;
   const auto under_way =
-      std::make_shared<FewAtOnce>(most, "Many cells are being computed already; wait for some of them.");
+      std::make_shared<FewAtOnce>(most, "Too many cells are being computed; wait until some are finished.");
   view.router.add("POST", "/api/state", [&threads = view.threads, under_way](const Request& request) {
     const FewAtOnce::Turn turn = under_way->begin();
     return state(threads, request);

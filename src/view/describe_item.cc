@@ -47,7 +47,7 @@ Json describe_result(const fs::path& folder) {
   const std::string name = one_line(file.string(), 300);
   const Json result = parse_sound_json(content_of_file(file, largest_file));
   if (!result.is_object() || !result.contains("case"))
-    throw UserError(fmt::format("{}: holds no result of rheocyte.", name));
+    throw UserError(fmt::format("{}: contains no result of rheocyte.", name));
   return {{"case", result["case"]}};
 }
 

@@ -126,7 +126,7 @@ void add_fit(const Extraction& extraction, const EventBlock& block, const Modulu
   if (!has_modulus(block.state[0])) return;
   const auto cell = map ? model_outline(*map, conditions, block.area_um2[0], block.deformation[0]) : std::nullopt;
   if (!cell) {
-    j["sentence"] = "No table here says what the model's cell looks like.";
+    j["sentence"] = "No available table contains the shape of the cell of the model.";
     return;
   }
   ChannelFlow flow = conditions.flow;
@@ -165,8 +165,7 @@ std::string sentence_on(const EventBlock& block) {
   if (block.shape.empty() || !block.shape[0].is_elongated() || !std::isfinite(modulus)) return on_state;
   return fmt::format(
       "{}{}The cell is longer along the flow than those of the table, so that its modulus from deformation is too low; "
-      "a "
-      "solid that a tension of {:.0f} Pa draws out has such a shape with {:.3g} kPa.",
+      "a solid elongated by a tension of {:.0f} Pa has this shape with {:.3g} kPa.",
       on_state, on_state.empty() ? "" : " ", tension, modulus);
 }
 

@@ -52,7 +52,7 @@ class EvolutionLines {
     evolution_.stop();
   }
 
-  /// Gives the lines until the end, or until nobody takes them.
+  /// Gives the lines until the end, or until no one takes them.
   void give(const TakePiece& take, const Watch& watch) {
     bool has_left = false;
     evolution_.follow_here([&] {

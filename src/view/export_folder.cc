@@ -63,9 +63,8 @@ void ExportFolder::check(const fs::path& path, ExportKind kind) const {
   if (!now) return;  // nothing stands there
   const auto known = written_.find(path);
   if (known == written_.end() || !is_same_and_unchanged(known->second, *now))
-    throw Refused(
-        409, "exists",
-        fmt::format("{} is there already and was not written by this view; give another name.", path.string()));
+    throw Refused(409, "exists",
+                  fmt::format("{} already exists and was not written by this view; give another name.", path.string()));
   if (now->is_folder != (kind == ExportKind::folder))
     throw Refused(409, "exists",
                   fmt::format("{} is a {} of an earlier export; give another name.", path.string(),

@@ -20,7 +20,7 @@ class ExportFolder;
 
 enum class ExportKind { file, folder };
 
-/// The name of an export that is under way: nobody else in this view has it meanwhile.
+/// The name of an export that is under way: no one else in this view has it meanwhile.
 class ExportPlace {
  public:
   /// Refused, see ExportFolder::claim.

@@ -50,7 +50,7 @@ std::string KeptInspectors::inspect(const Json& recording, std::size_t event) {
   if (const auto known = take(key)) try {
       return ask(*known);
     } catch (
-        const UserError&) {  // the system may have ended it meanwhile: another one tells the reason, if there is one
+        const UserError&) {  // the system may have ended it meanwhile: another one gives the reason, if there is one
       drop(known);
     }
   const auto fresh = begin(recording, key);

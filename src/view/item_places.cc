@@ -86,7 +86,7 @@ std::vector<ItemPlace> places_of(const fs::path& path, Folders folders) {
   drop_companions(found);
   if (found.empty())
     return {{ItemKind::recording, path, name,
-             fmt::format("{}: this folder holds no recording (.rtdc), no result and no table, or it cannot be read.",
+             fmt::format("{}: this folder contains no recording (.rtdc), no result and no table, or it cannot be read.",
                          whole)}};
   for (auto& place : found) place.name = place.path == path ? name : place.path.lexically_relative(path).string();
   return found;

@@ -36,7 +36,7 @@ struct OpenRecording {
     if (const fs::path file = path_in(request, "companion"); !file.empty()) companion.emplace(file);
     if (const fs::path file = path_in(request, "several"); !file.empty()) several.emplace(file);
   }
-  /// Who asks is told while the recording is read.
+  /// The client gets progress while the recording is read.
   void tell_to(const TellProgress& tell) {
     recording.on_piece(now_and_then([tell] { tell(0); }));
   }
@@ -105,7 +105,7 @@ struct Inspection {
   EventInspector inspector;
 };
 
-/// Stays until nobody asks for an event any more.
+/// Stays until no one asks for an event any more.
 void inspect_events(const Json& request, const WorkReply& reply, const TellProgress& tell) {
   auto& inspection = reply.kept<Inspection>(request, tell);
   inspection.open.tell_to(tell);

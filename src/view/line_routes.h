@@ -7,7 +7,7 @@ namespace rheocyte {
 
 /// {"lines": [{"young_modulus_kPa", "x", "y"}], "range": {"x", "y"}, "table", "sentence"} from what PlotLines draws.
 nlohmann::ordered_json lines_json(const nlohmann::json& drawn, const std::string& sentence);
-/// Without lines; the sentence tells why.
+/// Without lines; the sentence gives the reason.
 nlohmann::ordered_json no_lines_json(const std::string& sentence);
 
 }  // namespace rheocyte

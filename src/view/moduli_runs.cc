@@ -124,7 +124,7 @@ void ModuliRuns::compute(Run& run, const Json& request, const std::stop_token& s
     };
     const auto is_over = [&] { return stop.stop_requested() || (client && client->has_left()); };
     report = parse_sound_json(items_.host().ask(json_text(request)).all({.progress = progress, .stop = is_over}));
-  } catch (const std::exception& reason) {  // also of a system without memory: a thread has nobody to tell
+  } catch (const std::exception& reason) {  // also of a system without memory: a thread has no one to report to
     error = reason.what();
   }
   free_processors_.release();

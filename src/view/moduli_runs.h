@@ -42,7 +42,7 @@ class ModuliRuns {
   nlohmann::ordered_json settings(std::size_t item) const;
   /// The companion with what has been computed; empty: nothing.
   std::filesystem::path companion(std::size_t item) const;
-  /// The companion of `rheocyte moduli`, likewise; empty also without a combined table.
+  /// The companion of `rheocyte moduli`; empty also without a combined table.
   std::filesystem::path several(std::size_t item) const;
   /// Events by their states, {"valid": 12, "too small": 3, ...}; empty without moduli.
   nlohmann::ordered_json counts(std::size_t item) const;

@@ -28,8 +28,7 @@ std::string named_table(const Json& table, const TableItem& table_item) {
     if (identifier.empty() || shipped.contains(identifier)) return identifier;
   }
   throw UserError(fmt::format(
-      "The setting table is the identifier of a table that comes with the program ({}), or the number of an item.",
-      names));
+      "The setting table is the identifier of a table of the program ({}), or the number of an item.", names));
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ class RecordingAnswers {
     const Json description = items_.recording(request.number("item")).description;
     const Json pictures = description.is_object() ? description.value("pictures", Json({feature})) : Json({feature});
     if (std::ranges::find(pictures, Json(feature)) == pictures.end())
-      throw Refused(404, "unknown", "The recording holds no pictures of the kind " + feature + ".");
+      throw Refused(404, "unknown", "The recording contains no pictures of the kind " + feature + ".");
     const Json wanted{{"do", "picture"}, {"event", request.number("event")}, {"picture", feature}};
     return {.type = "image/png", .body = work_on_item(request, wanted).all(request.watch())};
   }

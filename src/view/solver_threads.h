@@ -43,7 +43,7 @@ class SolverThreads {
   /// and waits until it has ended. What the work throws is thrown here.
   JobEnd run(const SolverJob&);
 
-  /// Ends what runs and takes nothing more; whoever waits must be back before the threads are destroyed.
+  /// Ends what runs and takes nothing more; waiting threads must be back before the threads are destroyed.
   void stop();
 
   /// Jobs that wait or run.

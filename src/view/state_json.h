@@ -23,7 +23,7 @@ class ShownState {
   /// "fields": values at about so many points of straight triangles, as base64. One line; empty without a state.
   std::string fields(int points = usual_points) const;
 
-  /// The same fields without base64: one line that tells the arrays' names, types and counts, then their numbers one
+  /// The same fields without base64: one line that gives the arrays' names, types and counts, then their numbers one
   /// array after another, little endian. Nothing without a state.
   void give_fields(const TakePiece&) const;
 

@@ -27,8 +27,8 @@ void announce(const HttpServer& server, const ViewOptions& options) {
   finish_output();
   if (!is_loopback(options.place.host))
     tell(
-        "rheocyte view: whoever reaches this address and knows the token can compute here and write into the output "
-        "folder; the connection is not encrypted.");
+        "rheocyte view: anyone who can reach this address and knows the token can compute on this machine and write "
+        "into the output folder; the connection is not encrypted.");
 }
 
 /// Until the user wants a stop.

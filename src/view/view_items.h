@@ -37,7 +37,7 @@ class ViewItems {
     std::string version = {};                       ///< of the files, when they were described
   };
 
-  /// Items that have vanished, come back or changed are noticed here, and described anew.
+  /// Items that have vanished, come back or changed are noticed here, and described again.
   nlohmann::ordered_json list();
   std::size_t count() const;
   /// What is wrong with places that cannot be read, one sentence each.

@@ -44,8 +44,7 @@ void ViewSession::read(const std::filesystem::path& file) {
     const auto* text = std::get_if<std::string>(&given.value);
     const auto part = std::ranges::find(parts_, given.key, &SessionPart::name);
     if (!text || (given.key != page_key && part == parts_.end()))
-      throw UserError(given.where + ": " + one_line(given.key, 60) +
-                      " does not belong into a session of rheocyte view.");
+      throw UserError(given.where + ": " + one_line(given.key, 60) + " does not belong in a session of rheocyte view.");
     const Json tree = parse_sound_json(*text);
     if (tree.is_null()) throw UserError(given.where + ": the JSON of " + given.key + " is damaged.");
     if (part != parts_.end())

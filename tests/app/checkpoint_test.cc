@@ -116,7 +116,7 @@ TEST_F(Folder, AForeignOneIsRefusedByName) {
 }
 
 TEST_F(Folder, WithoutACheckpointIsRefused) {
-  EXPECT_NE(refusal(some_case()).find("holds no checkpoint"), std::string::npos);
+  EXPECT_NE(refusal(some_case()).find("contains no checkpoint"), std::string::npos);
 }
 
 }  // namespace

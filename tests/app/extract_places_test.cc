@@ -33,9 +33,10 @@ TEST_F(ExtractPlaces, ResultsAmongTheGivenFilesAreNoRecordings) {
   const auto again = extract({path("a.rtdc"), path("a_rheocyte.rtdc"), path("a.rtdc")});
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_NE(again.out.find("1 of 1 recordings"), std::string::npos) << again.out;
-  EXPECT_NE(again.err.find("a_rheocyte.rtdc: is a result of this program and was passed over."), std::string::npos);
+  EXPECT_NE(again.err.find("a_rheocyte.rtdc: is a result of this program and was skipped."), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte_rheocyte.rtdc"));
-  expect_refusal({path("a_rheocyte.rtdc")}, "is a result of this program, as its name says; give the recording");
+  expect_refusal({path("a_rheocyte.rtdc")},
+                 "is a result of this program, according to its name; give the original recording");
 }
 
 TEST_F(ExtractPlaces, RecordingsOfOneNameAreToldApartByTheirFolders) {
@@ -138,7 +139,7 @@ TEST_F(ExtractPlaces, OneTableTakesTheRecordingsOfAllCallsIntoAFolder) {
 TEST_F(ExtractPlaces, AForeignFileInThePlaceOfTheTableIsNamedBeforeAnythingIsComputed) {
   write_recording("a.rtdc");
   test::write_file(folder_ / "rheocyte_summary.tsv", "my own notes");
-  expect_refusal({path("a.rtdc")}, "rheocyte_summary.tsv: is there and was not written by rheocyte");
+  expect_refusal({path("a.rtdc")}, "rheocyte_summary.tsv: already exists and was not written by rheocyte");
   EXPECT_EQ(test::content_of(folder_ / "rheocyte_summary.tsv"), "my own notes");
   EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte.rtdc"));
 }

@@ -186,12 +186,12 @@ TEST_F(Extract, ContradictingAndWrongOptionsAreRefused) {
   expect_refusal({path("none.rtdc")}, "no such file");
   const auto no_table = test::run({{RHEOCYTE, "extract", file, "--table", path("none.txt")}});
   EXPECT_EQ(no_table.exit_code, 2);
-  EXPECT_NE(no_table.err.find("there is neither such a file nor such a table"), std::string::npos) << no_table.err;
+  EXPECT_NE(no_table.err.find("there is no such file or table"), std::string::npos) << no_table.err;
   const std::map<std::string, std::string> without_dclab{
       {"PYTHONPATH", ""}, {"VIRTUAL_ENV", ""}, {"CONDA_PREFIX", ""}, {"HOME", ""}};
   const auto published = test::run({{RHEOCYTE, "extract", file, "--table", "LE-2D-FEM-19"}, without_dclab});
   if (published.exit_code != 0) {  // else the system itself has a dclab
-    EXPECT_NE(published.err.find("come with dclab (pip install dclab), which was looked for in PYTHONPATH"),
+    EXPECT_NE(published.err.find("come with dclab (pip install dclab), which was searched for in PYTHONPATH"),
               std::string::npos)
         << published.err;
   }
@@ -249,7 +249,8 @@ TEST_F(Extract, FilesOfOthersInThePlaceOfResultsAreKept) {
     test::write_file(folder_ / name, "my own notes");
     const auto ended = extract({path("a.rtdc")});
     EXPECT_EQ(ended.exit_code, 2) << ended.err;
-    EXPECT_NE(ended.err.find(name + ": is there and was not written by rheocyte"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find(name + ": already exists and was not written by rheocyte"), std::string::npos)
+        << ended.err;
     EXPECT_EQ(test::content_of(folder_ / name), "my own notes");
     fs::remove(folder_ / name);
   }

@@ -69,7 +69,7 @@ TEST_F(Implausible, TemperaturesWithoutASensorGiveWayToTheMetadata) {
               expected);
   }
   temperatures(NAN);
-  EXPECT_EQ(moduli("the temperatures of the events are no numbers. setup:temperature, 23 degC, is taken."), expected);
+  EXPECT_EQ(moduli("the temperatures of the events are no numbers. setup:temperature, 23 degC, is used."), expected);
   expect_refusal("the temperatures of the events are no numbers", {"--temperature", "feature"});
 }
 
@@ -114,8 +114,8 @@ TEST_F(Implausible, SingleEventsWithoutATemperatureHaveNoModulus) {
 
 TEST_F(Implausible, ATemperatureOfTheUserMayReplaceRecordedOnesOrOnlyFillGaps) {
   write_recording([](RecordingWriter& writer) { writer.scalar("temp", {25, 25, 25}); });
-  const auto recorded = moduli(""), replaced = moduli("is taken in place of the recorded one (25 degC, median of the",
-                                                      {"--temperature", "30"});
+  const auto recorded = moduli(""),
+             replaced = moduli("replaces the recorded temperature (25 degC, median of the", {"--temperature", "30"});
   EXPECT_LT(replaced[0], recorded[0]);
   EXPECT_EQ(moduli("", {"--temperature-if-missing", "30"}), recorded);
   write_recording([](RecordingWriter& writer) { ::H5Adelete(writer.root(), "setup:temperature"); });
@@ -129,14 +129,14 @@ TEST_F(Implausible, ATemperatureForWhereItIsMissingFillsSingleEventsToo) {
     ::H5Adelete(writer.root(), "setup:temperature");
     writer.scalar("temp", {25, 0, NAN});
   });
-  EXPECT_EQ(moduli("2 events have temperatures that are impossible (for example 0 degC); for them 30 degC is taken.",
+  EXPECT_EQ(moduli("2 events have temperatures that are impossible (for example 0 degC); for them 30 degC is used.",
                    {"--temperature-if-missing", "30"}),
             expected);
   write_recording([](RecordingWriter& writer) {
     replace(writer, "setup:temperature", 30);
     writer.scalar("temp", {25, 0, NAN});
   });
-  EXPECT_EQ(moduli("for them 30 degC is taken, setup:temperature.", {"--temperature-if-missing", "20"}), expected)
+  EXPECT_EQ(moduli("for them 30 degC is used, setup:temperature.", {"--temperature-if-missing", "20"}), expected)
       << "what is recorded comes first";
 }
 

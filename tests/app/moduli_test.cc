@@ -222,7 +222,7 @@ TEST_F(ModuliCommand, ARecordingWithoutMadeOutModuliIsSaidAndHasItsExitCode) {
   expect({"--pixel-size-um", "0.68"}, 3,
          "no event has the shape of a cell of the table XC-2D-26: 0 of 40 events resolved; ");
   write_recording(recording(), invented_outline({6, 0.02, 0}, 3));
-  expect({}, 0, "no event tells bulk and cortex apart");
+  expect({}, 0, "no event determines bulk and cortex separately");
 
   {
     RecordingWriter writer(folder_.path() / "M2.rtdc");
@@ -364,7 +364,7 @@ TEST_F(ModuliCommand, WhatCannotBeUsedIsRefused) {
   // One sentence and exit code 2: no table, bad values, options that only `rheocyte extract` can follow, a file of the
   // user's in the place of the result.
   const std::string folder = table_folder().string();
-  expect_refusal({(folder_.path() / "none").string()}, "there is neither such a file nor such a folder");
+  expect_refusal({(folder_.path() / "none").string()}, "there is no such file or folder");
   expect_refusal({folder, "--viscosity-mPas", "-1"}, "--viscosity-mPas -1 is outside its range");
   expect_refusal({folder, "--pixel-size-um", "0"}, "--pixel-size-um 0 is outside its range");
   for (const std::string option : {"--no-pixelation", "--no-area-correction", "--no-tsv"})

@@ -162,7 +162,7 @@ TEST_F(OwnTable, IsFoundByIdentifierFileAndFolder) {
       << "the analytical model against simulations at a deformation of 0.01";
   EXPECT_LT(modulus({"--no-area-correction"}), 0.99 * modulus({}));
   fs::remove(folder_ / "table/grid_CLOSED.cbor");
-  expect_refusal({"extract", path("a.rtdc"), "--table", path("table")}, "holds no grid_*.cbor");
+  expect_refusal({"extract", path("a.rtdc"), "--table", path("table")}, "contains no grid_*.cbor");
 }
 
 TEST_F(OwnTable, ContradictingOptionsAndMissingTablesAreRefused) {

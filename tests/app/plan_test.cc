@@ -20,7 +20,7 @@ TEST_F(Plan, NamesAChannelTheSessionsAndWhatLimits) {
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_TRUE(ended.out.starts_with("channel_width_um\tmedium\tflow_rate_ul_per_s\t")) << ended.out;
   EXPECT_NE(ended.out.find("paired t test"), std::string::npos);
-  EXPECT_NE(ended.out.find("what limits is the scatter between recordings"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("it is limited by the scatter between recordings"), std::string::npos) << ended.out;
   expect_sentence(call({"plan", "--radius-um", "6.5", "--young-modulus-kPa", "2", "--medium", "honey"}),
                   "--medium honey has no known viscosity; it can be CellCarrier");
   EXPECT_NE(
@@ -60,12 +60,13 @@ TEST_F(Plan, RefusesCellsThatNoChannelShowsAndNamesTheStressThatDoes) {
   const Ended narrower = plan(6.5, 200, {"--width-um", "15"});
   EXPECT_EQ(narrower.exit_code, 0) << narrower.err;
   EXPECT_EQ(narrower.out.find("inf"), std::string::npos) << narrower.out;
-  EXPECT_NE(narrower.out.find("a narrower channel, more flow or a thicker medium"), std::string::npos) << narrower.out;
+  EXPECT_NE(narrower.out.find("a narrower channel, a higher flow rate or a more viscous medium"), std::string::npos)
+      << narrower.out;
 }
 
 TEST_F(Plan, WritesDifferencesAsPerCentAndSaysHowTheyAreGiven) {
   EXPECT_NE(plan(6.5, 2, {"--difference", "20"})
-                .out.find("a difference of 2000 % (an E that is 21 times as great; --difference 0.2 is 20 %)"),
+                .out.find("a difference of 2000 % (an E that is 21 times as large; --difference 0.2 is 20 %)"),
             std::string::npos);
   EXPECT_NE(plan(6.5, 2, {"--difference", "0.15"}).out.find("a difference of 15 % is found"), std::string::npos);
 }

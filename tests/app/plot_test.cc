@@ -73,7 +73,7 @@ TEST_F(Plot, WritesBothPicturesBesideTheRecording) {
 
 TEST_F(Plot, PicturesOfOthersAreNotReplaced) {
   std::ofstream(folder_ / "a_rheocyte.svg") << "<svg>theirs</svg>";
-  expect_refusal({path("a.rtdc")}, "is there and was not written by rheocyte; give another name with -o");
+  expect_refusal({path("a.rtdc")}, "already exists and was not written by rheocyte; give another name with -o");
   EXPECT_EQ(test::content_of(folder_ / "a_rheocyte.svg"), "<svg>theirs</svg>");
   EXPECT_FALSE(fs::exists(folder_ / "a_rheocyte.png"));
   for (int call = 0; call < 2; ++call)
@@ -138,7 +138,7 @@ TEST_F(Plot, WhatCannotBeDrawnIsSaid) {
   const std::string a = path("a.rtdc"), table = path("table.txt");
   expect_refusal({path("none.rtdc")}, "no such file");
   expect_refusal({path(".")}, "is a folder; give recordings");
-  expect_refusal({a, "--table", path("none.txt")}, "there is neither such a file");
+  expect_refusal({a, "--table", path("none.txt")}, "there is no such file");
   expect_refusal({a, "--lines", table}, "need a text \"lut identifier\"");
   expect_refusal({a, "--levels", "1,2", "--lines", table}, "--levels and --lines contradict");
   expect_refusal({a, "--no-lines", "--table", table}, "--no-lines and --table contradict");

@@ -91,7 +91,7 @@ TEST_F(PopulationCommand, SolidsHaveNoCortexToTell) {
   synth("solids.rtdc", {"recording.cells=300"});
   const Ended ended =
       call({"population", "--model", "cortex", "--condition", "a=solids.rtdc", "--no-picture", "--min", "area_um=60"});
-  EXPECT_NE(ended.err.find("bulk and cortex are not told apart, because"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("bulk and cortex are not determined separately, because"), std::string::npos) << ended.err;
   const auto all = record();
   EXPECT_FALSE(all["conditions"][0].contains("cortex_modulus_median_mN_per_m"));
   EXPECT_EQ(all["conditions"][0]["stiffness_median_kPa"].is_null(), ended.exit_code != 0);
@@ -110,10 +110,10 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   refused({"--model", "jelly"}, "--model");
   refused({"--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"},
-          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; with the program comes HC-2D-EL-26");
+          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; the program provides HC-2D-EL-26");
   refused({"--model", "cortex", "--table", "HC-2D-26"},
-          "--table HC-2D-26: there is neither such a file nor such a folder. With the program comes HC-2D-EL-26; any "
-          "other table of cells with bulk and cortex is made first, by `rheocyte table`, which takes");
+          "--table HC-2D-26: there is no such file or folder. The program provides HC-2D-EL-26; `rheocyte table` "
+          "computes any other table of cells with bulk and cortex in two minutes");
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_F(PopulationFolderOf, FilesOfOthersInPlacesThatWouldBeWrittenAreNamedAndSta
   for (const std::string name : {"population.json", "population.tsv", "population.png", "population-checks.svg",
                                  "events_a_1.tsv", "events_a_1.rtdc"}) {
     make(name + ".of", name);
-    expect_sentence(population("A1.rtdc", name + ".of"), name + ": is there and was not written by rheocyte");
+    expect_sentence(population("A1.rtdc", name + ".of"), name + ": already exists and was not written by rheocyte");
     EXPECT_EQ(contents(name + ".of"), (std::map<std::string, std::string>{{name, "mine"}}));
   }
 }
@@ -57,8 +57,9 @@ TEST_F(PopulationFolderOf, FilesOfOthersInPlacesThatWouldBeWrittenAreNamedAndSta
 TEST_F(PopulationFolderOf, ARecordingIsNeverReplacedByItsResult) {
   fs::copy_file(folder_.path() / "A1.rtdc", folder_.path() / "events_a_1.rtdc");
   const std::string before = content_of(folder_.path() / "events_a_1.rtdc");
-  expect_sentence(population("events_a_1.rtdc", "."), "events_a_1.rtdc: is a recording of this call");
-  expect_sentence(population("A1.rtdc", "."), "events_a_1.rtdc: is there and was not written by rheocyte population");
+  expect_sentence(population("events_a_1.rtdc", "."), "events_a_1.rtdc: is one of the given recordings");
+  expect_sentence(population("A1.rtdc", "."),
+                  "events_a_1.rtdc: already exists and was not written by rheocyte population");
   EXPECT_EQ(content_of(folder_.path() / "events_a_1.rtdc"), before);
   EXPECT_FALSE(fs::exists(folder_.path() / "population.json"));
 }

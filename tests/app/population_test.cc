@@ -229,7 +229,7 @@ TEST_F(PopulationCommand, OneRecordingEachHasARatioButNoP) {
   const Ended ended =
       call({"population", "--condition", "a=a.rtdc", "--condition", "b=b.rtdc", "--between-recordings", "0.03"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("no p, because a single recording does not tell how recordings scatter"), std::string::npos);
+  EXPECT_NE(ended.out.find("no p, because a single recording gives no scatter between recordings"), std::string::npos);
   EXPECT_NE(ended.out.find("with a scatter of 0.03 between recordings"), std::string::npos);
   EXPECT_TRUE(record()["comparisons"][0]["p"].is_null());
   EXPECT_FALSE(record()["comparisons"][0]["p_by_known_scatter"].is_null());
@@ -284,10 +284,10 @@ TEST_F(PopulationCommand, WhatDoesNotWorkIsSaidInOneSentence) {
   };
   refused({"--condition", "a"}, "give a name and its recordings");
   refused({"--condition", "a=a.rtdc,a.rtdc"}, "is named twice");
-  refused({"--condition", "a=a.rtdc", "--condition", "b=again.rtdc"}, "holds the same events as a.rtdc");
+  refused({"--condition", "a=a.rtdc", "--condition", "b=again.rtdc"}, "contains the same events as a.rtdc");
   refused({"--condition", "a=a.rtdc", "--condition", "a=few.rtdc"}, "the condition a is given twice");
   refused({"--condition", "a=a.rtdc", "--condition", "b=few.rtdc,again.rtdc", "--paired"},
-          "--paired wants equally many");
+          "--paired needs equally many");
   refused({"--condition", "../a=a.rtdc"}, "neither slashes nor line breaks");
   refused({"--condition", "a\tb=a.rtdc"}, "neither slashes nor line breaks");
   refused({"--condition", std::string(101, 'a') + "=a.rtdc"}, "no more than 100 characters");

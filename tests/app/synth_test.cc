@@ -177,7 +177,7 @@ TEST_F(Synth, ATableInPlaceOfTheClosedModelIsLookedForBesideTheSpec) {
       "\"cell.cortex.modulus_mN_per_m\"\n";
   fs::create_directories(folder_ / "table");
   test::write_file(folder_ / "table/spec.toml", of_shells);
-  expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, "holds other files");
+  expect_refusal({"synth", path("spec.toml"), "-o", path("v.rtdc")}, "contains other files");
 }
 
 TEST_F(Synth, CellsOfAComputedTableHaveItsShapes) {
@@ -296,7 +296,7 @@ TEST_F(Synth, WhatIsWrongIsSaidAndLeavesNothing) {
   expect_refusal({"synth", spec, "-o", path("v.h5")}, "end in .rtdc");
   expect_refusal({"synth", spec, "-o", path("nowhere/v.rtdc")}, "there is no such folder");
   test::write_file(folder_ / "precious.rtdc", "a real one");
-  expect_refusal({"synth", spec, "-o", path("precious.rtdc")}, "is there already");
+  expect_refusal({"synth", spec, "-o", path("precious.rtdc")}, "already exists");
   EXPECT_EQ(test::content_of(folder_ / "precious.rtdc"), "a real one");
   test::write_file(folder_ / "wrong.toml", "[recording]\ncells = 10\nseeds = 2\n");
   expect_refusal({"synth", path("wrong.toml"), "-o", path("v.rtdc")},

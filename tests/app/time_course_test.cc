@@ -110,7 +110,7 @@ TEST_F(TimeCourseCommand, ATableOfTheSquareChannelNeedsNothingOfTheTube) {
   const Ended thinning =
       time_course({"--contraction-um", "0", "--section", "square", "--medium", "CellCarrier", "--temperature", "23"});
   ASSERT_EQ(thinning.exit_code, 0) << thinning.err;
-  EXPECT_NE(thinning.out.find("the liquid thins with shear otherwise than that of the table: c3 was divided by"),
+  EXPECT_NE(thinning.out.find("the liquid is not shear-thinning as that of the table: c3 was divided by"),
             std::string::npos)
       << thinning.out;
 }
@@ -131,7 +131,7 @@ TEST_F(TimeCourseCommand, WhatDoesNotTellAViscosityIsRefusedInASentence) {
   ASSERT_EQ(synth({"--set", "recording.cells=20", "--set", "recording.places_um=[60, 65]"}).exit_code, 0);
   expect_sentence(time_course(), "all cells were seen at one place");
   ASSERT_EQ(synth({"--set", "recording.cells=12", "--set", "recording.places_um=[60]"}).exit_code, 0);
-  expect_sentence(time_course(), "One picture of a cell does not tell");
+  expect_sentence(time_course(), "One picture does not distinguish");
   expect_sentence(time_course({"--contraction-um", "2000"}), "is --contraction-um right?");
   expect_sentence(time_course({"--contraction-um", "0,1,2"}), "--contraction-um has 3 places for 1 recordings");
   expect_sentence(time_course({"--contraction-um", "0", "--channel-width-um", "30"}),

@@ -71,8 +71,8 @@ TEST(PolygonFile, WhatIsNoneIsRefusedWithItsLine) {
     std::ofstream(folder / "a.poly") << text;
     return folder / "a.poly";
   };
-  expect_file_refused(with(""), "holds no polygon filters");
-  expect_file_refused(with("area_um,deform=1,2:3,4:5,6\n"), "line 1 is none of a polygon filter");
+  expect_file_refused(with(""), "contains no polygon filters");
+  expect_file_refused(with("area_um,deform=1,2:3,4:5,6\n"), "line 1 is not a line of a polygon filter");
   expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 x\n"), "line 3 is none");
   expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 inf\n"), "line 3 is none");
   expect_file_refused(with("[Polygon 0]\nColour = red\n"), "line 2 is none");

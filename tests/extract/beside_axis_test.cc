@@ -96,7 +96,7 @@ TEST(BesideAxis, NosesThatPointToTheAxisAreThoseOfElasticCells) {
 
 TEST(BesideAxis, FewEventsDecideNothing) {
   EXPECT_EQ(found({.events = 40}).turn(), BesideAxis::Turn::undecided);
-  EXPECT_NE(found({.events = 40}).turn_text().find("cannot be told"), std::string::npos);
+  EXPECT_NE(found({.events = 40}).turn_text().find("is unknown"), std::string::npos);
 }
 
 TEST(BesideAxis, OnTheAxisWithFewerThan15EventsOrWithoutElongationNothingIsSaid) {

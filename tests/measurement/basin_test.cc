@@ -236,10 +236,9 @@ TEST(Basin, ARemoteOneIsNamedAndNotRead) {
   }
   const Recording recording(folder / "a.rtdc");
   ASSERT_EQ(recording.remarks().size(), 1U);
-  EXPECT_EQ(
-      recording.remarks()[0],
-      "the basin \"store (http)\" is not used: it is on a network, from which nothing is read; download the file and "
-      "refer to it, or put its features into the recording.");
+  EXPECT_EQ(recording.remarks()[0],
+            "the basin \"store (http)\" is not used: it is on a network, which is not read; download the file and "
+            "refer to it, or put its features into the recording.");
   EXPECT_THROW(ShapeSource(recording, 0.34), UserError);
 }
 
@@ -251,10 +250,11 @@ TEST(Basin, AKindOfTheFutureIsNotKnownAndNotBroken) {
     writer.lines("basins/0", {R"({"type": "internal", "format": "h5future", "name": "tiles", "paths": ["x"]})"});
     writer.lines("basins/1", {R"({"type": "file", "name": "no format", "paths": ["x"]})"});
   }
-  EXPECT_EQ(Recording(folder / "a.rtdc").remarks(),
-            (std::vector<std::string>{"the basin \"tiles (h5future)\" is not used: basins of this kind are not known "
-                                      "here; export the recording with all its features by the program that wrote it.",
-                                      "a basin is not used: its definition is broken."}));
+  EXPECT_EQ(
+      Recording(folder / "a.rtdc").remarks(),
+      (std::vector<std::string>{"the basin \"tiles (h5future)\" is not used: basins of this kind are not supported; "
+                                "export the recording with all its features by the program that wrote it.",
+                                "a basin is not used: its definition is broken."}));
 }
 
 // A background that many events share is stored once.

@@ -181,7 +181,7 @@ TEST(Recording, AClaimOfMoreDataThanTheFileCanHoldIsNoFeature) {
   const Recording recording(folder / "a.rtdc");
   EXPECT_EQ(recording.events(), 2U);
   EXPECT_FALSE(recording.has_scalar("area_um"));
-  EXPECT_TRUE(remarks_contain(recording, "area_um holds no usable numbers"));
+  EXPECT_TRUE(remarks_contain(recording, "area_um contains no usable numbers"));
 }
 
 TEST(Recording, DataThatLieInOtherFilesAreNotFollowed) {

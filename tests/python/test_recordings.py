@@ -205,7 +205,7 @@ def test_virtual_cells_come_back(tmp_path):
     assert 0 < events <= 300
     frame = rheocyte.extract(file)
     assert len(frame) == events and frame["area_um2"].median() == pytest.approx(np.pi * 5.5**2, rel=0.05)
-    with pytest.raises(UserError, match="is there already"):
+    with pytest.raises(UserError, match="already exists"):
         rheocyte.synth(CELLS, file)
     assert rheocyte.synth(CELLS, file, replace=True, recording__cells=50) <= 50
     with pytest.raises(UserError, match="cels"):
@@ -239,7 +239,7 @@ def test_a_temperature_fills_what_is_missing(tmp_path):
 @pytest.mark.parametrize("arguments, sentence", [
     ({"viscosity_mPas": 5, "medium": "water"}, "viscosity_mPas and medium contradict"),
     ({"temperature": 296}, "temperature 296"), ({"min": {"bright": 1}}, "for which min gives a limit"),
-    ({"polygon": {("a", "b"): [(1, 2)]}}, r"three corners at least\.$"), ({"polygon": "filters.txt"}, "not a file of polygon"),
+    ({"polygon": {("a", "b"): [(1, 2)]}}, r"at least three corners\.$"), ({"polygon": "filters.txt"}, "not a file of polygon"),
     ({"polygon": "all.so2"}, "of a session of DCscope there as .poly"),
     ({"polygon": "nowhere.poly"}, "nowhere.poly: cannot be read")])
 def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path):
@@ -357,7 +357,7 @@ def test_single_images_do_not_tell_a_viscosity(on_their_way, tmp_path):
     spec = dict(ON_THEIR_WAY, shapes={"table": str(on_their_way / "dynamic")},
                 recording={"cells": 12, "width_px": 260, "places_um": [30]})
     rheocyte.synth(spec, tmp_path / "once.rtdc")
-    with pytest.raises(UserError, match="One picture of a cell does not tell"):
+    with pytest.raises(UserError, match="One picture does not distinguish"):
         rheocyte.time_course(tmp_path / "once.rtdc", on_their_way / "dynamic", 0)
     with pytest.raises(UserError, match="contraction_um has 2 places for 1 recordings"):
         rheocyte.time_course(tmp_path / "once.rtdc", on_their_way / "dynamic", [0, 1])

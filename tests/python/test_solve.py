@@ -154,7 +154,7 @@ def test_a_way_that_ends_beyond_the_limit_of_stability_has_not_converged(paper):
     way = rheocyte.evolve(paper, cell__bulk__law="none", cell__cortex__law="neo-hookean", cell__viscosity_mPas=15,
                           cell__cortex__modulus_mN_per_m=20, time__end_us=5, time__degree=3)
     assert way.result.status == "surface-unstable" and way.result.stability_margin < 0
-    assert "at the end, too" in way.result.message
+    assert "also so at the end" in way.result.message
     with pytest.raises(NoStateError, match="surface-unstable"):
         way.check()
 

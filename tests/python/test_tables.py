@@ -181,7 +181,7 @@ def test_texts_go_where_they_are_wanted(table, tmp_path):
         table.texts(folder)
     with pytest.raises(UserError, match="is not a path"):
         table.texts(3)
-    with pytest.raises(UserError, match="is a text table itself"):
+    with pytest.raises(UserError, match="is a text table"):
         Table(table.texts().table).texts(folder)
 
 
@@ -197,8 +197,8 @@ def test_texts_go_where_they_are_wanted(table, tmp_path):
     ([1], [0.1], {**EVEN, "medium": "honey", "temperature_C": 23}, "honey"),
     ([1], [0.1], {**EVEN, "medium": "water", "temperature_C": 23, "viscosity_model": "mine"}, None),
     ([1], [0.1], {**SMOOTH, "channel_width_um": -1}, "channel_width_um is -1"),
-    ([1], [0.1], {**SMOOTH, "channel_width_um": "20"}, "channel_width_um is '20'; one finite number is wanted"),
-    ([1], [0.1], {**SMOOTH, "channel_width_um": True}, "channel_width_um is True; one finite number is wanted"),
+    ([1], [0.1], {**SMOOTH, "channel_width_um": "20"}, "channel_width_um is '20'; it must be one finite number"),
+    ([1], [0.1], {**SMOOTH, "channel_width_um": True}, "channel_width_um is True; it must be one finite number"),
     ([1], [0.1], {**SMOOTH, "flow_rate_ul_s": np.nan}, "flow_rate_ul_s"),
     ([1], [0.1], {**SMOOTH, "pixel_size_um": -0.3}, "pixel_size_um"),
     ([1, 2], [0.1, 0.1], {**EVEN, "viscosity_mPas": [1, 2, 3]}, "viscosity_mPas 3"),
@@ -220,7 +220,7 @@ def test_a_table_that_is_not_there_or_damaged_is_named(tmp_path):
     for wrong in (5, None, "a\0b"):
         with pytest.raises(UserError, match="the table is .* not a path"):
             Table(wrong)
-    with pytest.raises(UserError, match="there is neither such a file"):
+    with pytest.raises(UserError, match="there is no such file"):
         Table("x" * 5000)
     for count in (0, "x", np.nan):
         with pytest.raises(UserError, match="count"):

@@ -41,7 +41,7 @@ class View:
         return json.loads(self.ask(method, path, body)[2])
 
     def wait_until(self, path, is_done):
-        """Asks until the answer is the wanted one."""
+        """Asks until the answer is the expected one."""
         for _ in range(600):
             answer = self.json("GET", path)
             if is_done(answer):

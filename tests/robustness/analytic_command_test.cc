@@ -212,7 +212,7 @@ TEST(AnalyticCommand, MistakesAreNamed) {
   expect_refusal({"table"}, "--output is required");
   expect_refusal({"cell", "--radius-um", "6"}, "give either --young-modulus-kPa");
   expect_refusal(solid({"--cortex-modulus-mN-m", "3"}), "give either --young-modulus-kPa");
-  expect_refusal(solid({"--tension-ratio", "0.2"}), "belongs to a shell");
+  expect_refusal(solid({"--tension-ratio", "0.2"}), "is for shells");
   expect_refusal({"cell", "--radius-um", "-3", "--young-modulus-kPa", "3"}, "--radius-um -3 is outside its range");
   expect_refusal({"cell", "--radius-um", "12", "--young-modulus-kPa", "3"}, "0.547 .. 10.56 um");
   expect_refusal({"cell", "--radius-um", "6", "--young-modulus-kPa", "nan"}, "nan is outside its range");
@@ -231,7 +231,7 @@ TEST(AnalyticCommand, MistakesInTablesAreNamed) {
   refuse({"table", "--least-radius-um", "9"}, "--least-radius-um 9 is not below --greatest-radius-um");
   refuse({"table", "--greatest-radius-um", "12"}, "--greatest-radius-um 12 is outside 0.547 .. 10.56 um");
   refuse({"table", "--greatest-modulus-kPa", "0.1"}, "--least-modulus-kPa 0.5 is not below");
-  refuse({"table", "--least-modulus-kPa", "0.01", "--greatest-modulus-kPa", "0.1"}, "greater moduli");
+  refuse({"table", "--least-modulus-kPa", "0.01", "--greatest-modulus-kPa", "0.1"}, "larger moduli");
   refuse({"table", "--radii", "1"}, "--radii");
   refuse({"table", "--identifier", "../x"}, "--identifier");
   refuse({"table", "--greatest-deformation", "nan"}, "--max-deformation nan is outside its range");

@@ -77,7 +77,7 @@ TEST(CommandLine, FoldersThatCannotTakeAResultAreNamedBeforeAnythingIsSolved) {
   write_file(foreign / "thesis.tex", "precious");
   expect_refusal({"solve", good_case, "-o", file}, "is a file");
   expect_refusal({"solve", good_case, "-o", file / "result"}, "Not a directory");
-  expect_refusal({"solve", good_case, "-o", foreign}, "holds files but no result of rheocyte");
+  expect_refusal({"solve", good_case, "-o", foreign}, "contains files but no result of rheocyte");
   expect_refusal({"solve", good_case, "-o", "/proc/result"}, "/proc/result: cannot write a result there");
   expect_refusal({"solve", good_case, "-o", "/"}, "/");
   EXPECT_EQ(content_of(foreign / "thesis.tex"), "precious");

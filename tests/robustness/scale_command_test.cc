@@ -76,7 +76,7 @@ TEST_F(Scale, MistakesAreNamed) {
   expect_refusal({"-o", output}, "give at least one of");
   expect_refusal({"--channel-width-um", "nan", "-o", output}, "nan is outside its range");
   expect_refusal({"--channel-width-um", "25", "-o", input}, "is the table itself");
-  expect_refusal({"--channel-width-um", "25", "-o", output, "--identifier", "a/b"}, "takes letters");
+  expect_refusal({"--channel-width-um", "25", "-o", output, "--identifier", "a/b"}, "may contain only letters");
   write_file(output, "thesis");
   expect_refusal({"--channel-width-um", "25", "-o", output}, "was not written by rheocyte");
   EXPECT_EQ(content_of(output), "thesis");

@@ -250,8 +250,8 @@ TEST_F(SolveCommand, PicturesOfOthersAreNeitherReplacedNorRemoved) {
   ASSERT_EQ(run(with_fields).exit_code, 0);
   write_file(result() / "picture.png", "theirs");
   expect_sentence(run(solve("", {"--no-picture"})),
-                  "picture.png: is there and was not written by rheocyte; move it away");
-  expect_sentence(run({{RHEOCYTE, "picture", result()}}), "picture.png is there and was not drawn by rheocyte");
+                  "picture.png: already exists and was not written by rheocyte; move it away");
+  expect_sentence(run({{RHEOCYTE, "picture", result()}}), "picture.png already exists and was not drawn by rheocyte");
   EXPECT_EQ(content_of(result() / "picture.png"), "theirs");
   fs::remove(result() / "picture.png");
   ASSERT_EQ(run({{RHEOCYTE, "picture", result()}}).exit_code, 0);

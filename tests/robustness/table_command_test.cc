@@ -129,7 +129,7 @@ TEST_F(TableCommand, ASignalEndsItCleanlyAndItGoesOn) {
   command_with_signal.signal = SIGINT;
   const Ended ended = run(command_with_signal);
   EXPECT_EQ(ended.exit_code, 130) << ended.err;
-  EXPECT_NE(ended.err.find("goes on from here"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("continues from here"), std::string::npos) << ended.err;
 }
 
 TEST_F(TableCommand, AFullDiskIsNamed) {

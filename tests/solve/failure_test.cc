@@ -66,7 +66,7 @@ TEST(Failure, ACellFarTooSoftKeepsTheLastStateOfTheBranch) {
     EXPECT_LT(state.shape.deformation, 0.5);
     EXPECT_TRUE(std::isfinite(state.cell_velocity) && std::isfinite(state.pressure_drop));
     EXPECT_TRUE(std::isnan(state.estimated_error));
-    EXPECT_NE(state.outcome.message.find("times the wanted moduli"), std::string::npos) << state.outcome.message;
+    EXPECT_NE(state.outcome.message.find("times the requested moduli"), std::string::npos) << state.outcome.message;
   }
 }
 

@@ -89,14 +89,14 @@ TEST(Outcome, ADeformationBelowTheFloorIsToldSo) {
   const std::string sentence =
       explanation(converged, {.deformation = 1e-13, .deformation_floor = 1e-8, .wanted_error = 1e-4});
   EXPECT_NE(sentence.find("so small that it is known within 1e-12"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("not within the wanted 1.0e-04"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("not within the requested 1.0e-04"), std::string::npos) << sentence;
 }
 
 TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
   // 0.4 of the compliance is 2.5 times the modulus.
   for (const Status status : {Status::surface_unstable, Status::branch_ended, Status::mesh_folded}) {
     const std::string sentence = explanation({status, "", 0.4}, {.deformation = 0.0512});
-    EXPECT_NE(sentence.find("2.5 times the wanted moduli"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("2.5 times the requested moduli"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("0.0512"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
   }
@@ -138,12 +138,12 @@ TEST(Outcome, ACellOffTheAxisIsNotOfferedTheBendingStiffnessThatItCannotHave) {
 TEST(Outcome, AnEndThatWasSeenOnCoarseMeshesSaysSo) {
   const Outcome outcome{.status = Status::surface_unstable, .message = {}, .reached = 0.8};
   const std::string known = explanation(outcome, {.deformation = 0.05, .is_coarse = true, .known_end = 1.165});
-  EXPECT_NE(known.find("ends at 1.165 times the wanted moduli (the last state kept has 1.25"), std::string::npos)
+  EXPECT_NE(known.find("ends at 1.165 times the requested moduli (the last state kept has 1.25"), std::string::npos)
       << known;
   EXPECT_EQ(known.find("finer meshes"), std::string::npos);
   const std::string unknown = explanation(outcome, {.deformation = 0.05, .is_coarse = true});
   EXPECT_NE(
-      unknown.find("ends at 1.25 times the wanted moduli (deformation 0.0500), on finer meshes up to a fifth lower"),
+      unknown.find("ends at 1.25 times the requested moduli (deformation 0.0500), on finer meshes up to a fifth lower"),
       std::string::npos)
       << unknown;
 }

@@ -125,12 +125,12 @@ TEST_F(DynamicFolderTest, AFolderOfAnotherContractionOrOfSomethingElseIsRefused)
   { DynamicFolder first(folder_, small_spec()); }
   const DynamicSpec other = parse_dynamic_spec(test::dynamic_spec_text, "spec.toml",
                                                std::vector<std::string>{"channel.profile.x_um=[60, 120]"});
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds a table that was begun as"),
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("contains a table that was begun as"),
             std::string::npos);
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   std::ofstream(folder_ / "letter.txt") << "dear";
-  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("holds other files"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { DynamicFolder(folder_, other); }).find("contains other files"), std::string::npos);
   EXPECT_NE(refusal_of([&] { read_dynamic_table(folder_); }).find("there is no dynamic table here"), std::string::npos);
 }
 

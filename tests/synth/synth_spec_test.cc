@@ -146,7 +146,7 @@ TEST(SynthSpec, FormerNamesAreReadAndTheNewOnesTold) {
       remarks[0],
       "spec.toml:8: cell.young_modulus_kPa.mean is now called cell.bulk.young_modulus_kPa.mean; this version still "
       "reads the old name.");
-  expect_refusal(text + "[cell.bulk.young_modulus_kPa]\nmean = 3\n", "is given for the second time");
+  expect_refusal(text + "[cell.bulk.young_modulus_kPa]\nmean = 3\n", "is given twice");
 }
 
 TEST(SynthSpec, ASettingReplacesAKeyOrAPartOfASpread) {

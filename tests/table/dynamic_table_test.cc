@@ -77,7 +77,7 @@ TEST(DynamicTable, NumbersThatNoCellHasAndCellsOfOtherNodesAreRefusedInASentence
   };
   using Courses = std::vector<CellCourse>;
   const auto of = [](CourseMeasure measure) { return int(measure); };
-  const std::string numbers = "the way of a cell holds numbers that no cell has",
+  const std::string numbers = "the way of a cell contains numbers that no cell has",
                     cells = "a cell is not the one that its spec has in this place";
   for (const auto& [change, words] : std::vector<std::pair<std::function<void(Courses&)>, std::string>>{
            {[](Courses& all) {
@@ -93,7 +93,7 @@ TEST(DynamicTable, NumbersThatNoCellHasAndCellsOfOtherNodesAreRefusedInASentence
            {[](Courses& all) { all[5].cell.radius_um *= -1; }, cells},
            {[](Courses& all) { all[5].cell.young_modulus_kPa *= 1.001; }, cells},
            {[](Courses& all) { all[5].cell.time_ms *= 2; }, cells},
-           {[](Courses& all) { all.pop_back(); }, "it does not hold what its spec says"}})
+           {[](Courses& all) { all.pop_back(); }, "its content does not agree with its spec"}})
     EXPECT_NE(refusal(change).find(words), std::string::npos) << refusal(change);
   EXPECT_NE(refusal([](Courses& all) { all[5].cell.time_ms = NAN; }), "accepted");
 }

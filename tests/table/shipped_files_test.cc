@@ -18,7 +18,7 @@ TEST(ShippedFiles, AreThoseThatTheProgramWrites) {
     if (entry.path().extension() != ".cbor") continue;
     const std::string bytes = content_of_file(entry.path(), std::size_t{64} << 20U);
     EXPECT_TRUE(rewritten_table(bytes, entry.path().filename().string()) == bytes)
-        << entry.path() << ": bench/rewrite_tables writes it anew";
+        << entry.path() << ": bench/rewrite_tables writes it again";
     ++files;
   }
   EXPECT_GE(files, 17);

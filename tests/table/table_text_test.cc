@@ -71,8 +71,8 @@ TEST(TableText, DamageIsNamedWithItsLine) {
   const auto expect = [](const std::string& text, const std::string& words) {
     EXPECT_NE(refusal(text).find(words), std::string::npos) << "wanted: " << words << "\n   got: " << refusal(text);
   };
-  expect("", "lut.txt: holds no rows");
-  expect(good.substr(0, good.find("2.817")), "holds no rows");
+  expect("", "lut.txt: contains no rows");
+  expect(good.substr(0, good.find("2.817")), "contains no rows");
   expect(replaced(good, "# BEGIN METADATA", "# BEGIN"), "not valid JSON");
   expect(replaced(good, "# END METADATA", "# END"), "before \"# END METADATA\"");
   expect(replaced(good, "\"um\"", "\"mm\""), "\"channel_width_unit\": \"um\"");

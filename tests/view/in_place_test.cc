@@ -90,7 +90,7 @@ TEST_F(InPlace, ModuliForNobodyAreStopped) {
   ask("POST", "/api/items/0/moduli", "{}", &left);
   const Json state = json("GET", "/api/items/0/moduli");
   EXPECT_EQ(state["state"], "failed");
-  EXPECT_EQ(state["error"], "Nobody waits any more for what was asked.");
+  EXPECT_EQ(state["error"], "The request was cancelled.");
 }
 
 TEST_F(InPlace, AStateForNobodyIsStoppedBetweenTasksAndTheNextOneIsFound) {

@@ -78,7 +78,7 @@ TEST(ModuliSettings, ThatAreWrongAreNamed) {
   expect_refusal({{"min", {"area_um"}}}, "give a feature and a number");
   expect_refusal({{"no_asymmetry", 1}}, "true or false");
   expect_refusal({{"viscosity_mPas", 5}, {"medium", "water"}}, "contradict");
-  expect_refusal(Json::array(), "no object");
+  expect_refusal(Json::array(), "must be an object");
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ class TestTables(OnBoth):
         os.close(terminal)
         self.assertTrue(begun)
         self.assertEqual(process.returncode, 130, errors)
-        self.assertIn(b"the same command goes on from here", errors)
+        self.assertIn(b"the same command continues from here", errors)
         again = self.wine.call(*self.SMALL, "-o", "stopped", cwd=self.there)
         self.assertEqual(again.returncode, 0, again.stderr)
 

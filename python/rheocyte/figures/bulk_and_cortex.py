@@ -1,4 +1,4 @@
-"""What images tell of E and E2D: of virtual cells one by one, and as a population."""
+"""E and E2D from images: of virtual cells one by one, and as a population."""
 
 import csv
 import json

@@ -74,7 +74,7 @@ class Laboratory:
             else:
                 missing[name] = (file, identity)
         if solutions:
-            self.tell(f"{len(solutions)} of {len(cases)} results are there already")
+            self.tell(f"{len(solutions)} of {len(cases)} results exist already")
         solutions.update(self.run(missing))
         ordered = {name: solutions[name] for name in cases}
         self.failures += [solution for solution in ordered.values() if not solution.converged]
@@ -89,7 +89,7 @@ class Laboratory:
             answer = json.loads(ended.stdout)
             return answer["version"], answer["case_hash"]
         except (json.JSONDecodeError, KeyError, TypeError) as error:
-            raise InputError(f"{self.program} is not the program of this version: it tells no case_hash.") from error
+            raise InputError(f"{self.program} is not the program of this version: it prints no case_hash.") from error
 
     def call(self, *arguments):
         """A short call of the program, finished."""

@@ -103,7 +103,7 @@ def radii_of_area(laboratory, moduli):
 
 
 def next_radius(radii, areas):
-    """Secant step to the wanted area, in the square of the radius; rounded, so that case files stay legible."""
+    """Secant step to the requested area, in the square of the radius; rounded, so that case files stay legible."""
     squares = np.square(radii)
     slope = (areas[-1] - areas[-2]) / (squares[-1] - squares[-2]) if len(areas) > 1 else areas[-1] / squares[-1]
     return round(float(np.sqrt(squares[-1] + (AREA_UM2 - areas[-1]) / slope)), 6)
@@ -132,7 +132,7 @@ def rows(radii, bending, inertia):
 
 
 def outcome(series, index):
-    """What the table tells of one solution."""
+    """The line of the table for one solution."""
     status = series.solutions[index].result["status"] if series else "radius not found"
     digits = {"reynolds": 5, "area_um2": 4, "deformation": 7}
     if status != "converged":

@@ -1,5 +1,5 @@
-"""Figure 9: deformation against the ratio of the moments of area for cells with a bulk and a cortex; and what images of
-such cells tell of both moduli, one by one and as a population."""
+"""Figure 9: deformation against the ratio of the moments of area for cells with a bulk and a cortex; and both moduli
+from images of such cells, one by one and as a population."""
 
 import numpy as np
 from matplotlib import colormaps
@@ -66,7 +66,7 @@ def draw(states, measured):
     bar.outline.set_visible(False)
     figure.text(0.008, 0.972, f"neo-Hookean bulk and cortex, $r_0$ = {RADIUS_UM:g} µm, "
                 f"$\\gamma$ = {paper.TENSION_RATIO:g} $E_{{2D}}$", weight="bold", fontsize=7.5)
-    figure.text(0.008, 0.395, "what images tell of both moduli: virtual cells, masks of 0.34 µm pixels", weight="bold", fontsize=7.5)
+    figure.text(0.008, 0.395, "both moduli from images: virtual cells, masks of 0.34 µm pixels", weight="bold", fontsize=7.5)
     bulk_and_cortex.draw(figure.add_axes([0.085, 0.065, 0.775, 0.310]), *measured)
     return figure
 

@@ -56,7 +56,7 @@ def branches(laboratory, name, spec, moduli):
 
 
 def run_table(laboratory, name, arguments):
-    """Exit code, standard output and last complaint of `rheocyte table`; its progress is told."""
+    """Exit code, standard output and last complaint of `rheocyte table`; its progress is printed."""
     command, complaint = [laboratory.program, "table", *arguments], ""
     try:
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -82,7 +82,7 @@ def read_branches(path):
     rows = read_table(path, ["radius_um", *MEASURES, "end_of_branch"])
     stiffness = next((name for name in STIFFNESSES if rows and name in rows[0]), None)
     if stiffness is None:
-        raise InputError(f"{path} holds no rows with a stiffness; wanted is a column {' or '.join(STIFFNESSES)}.")
+        raise InputError(f"{path} contains no rows with a stiffness; it needs a column {' or '.join(STIFFNESSES)}.")
     by_radius = {}
     for row in rows:
         by_radius.setdefault(number(row, "radius_um", path), []).append(row)

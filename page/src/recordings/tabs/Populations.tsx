@@ -247,7 +247,7 @@ function Populations() {
         {found && quantity && <Table found={found.record} quantity={quantity} />}
         {found && quantity && <DoseResponse found={found.record} quantity={quantity.quantity} />}
         {found?.record.comparisons.some(({ p }) => p === null) && (
-          <p class="soft">* By sampling alone: a single recording does not tell how recordings scatter.</p>
+          <p class="soft">* By sampling alone: a single recording gives no scatter between recordings.</p>
         )}
         {found && (
           <details open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
