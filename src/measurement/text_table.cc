@@ -199,8 +199,9 @@ class TextReader {
 
   [[noreturn]] void refuse_cell(std::size_t place, std::string_view cell) const {
     refuse(fmt::format(", column {}: \"{}\" {}.", shown(sources_[place]), shown(cell),
-                       has_decimal_comma(cell) ? "has a decimal comma; export the table with decimal points"
-                                               : "is not a number; correct it, or leave the cell empty"));
+                       has_decimal_comma(cell)
+                           ? "has a decimal comma; export the table with decimal points"
+                           : "is not a number; correct it, leave the cell empty or remove the column"));
   }
 
   [[noreturn]] void refuse_length(std::size_t cells) const {

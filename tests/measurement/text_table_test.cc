@@ -85,7 +85,8 @@ TEST(TextTable, WhatIsWrongIsNamedByLineAndColumn) {
   EXPECT_EQ(refusal_of(""), "cells.csv: is empty; its first line must name columns, such as area_um,deform.");
   EXPECT_EQ(refusal_of("# only a comment\n\n"), refusal_of(""));
   EXPECT_EQ(refusal_of(header + "60,x\n"),
-            "cells.csv: line 3, column deform: \"x\" is not a number; correct it, or leave the cell empty.");
+            "cells.csv: line 3, column deform: \"x\" is not a number; correct it, leave the cell empty or remove the "
+            "column.");
   EXPECT_EQ(refusal_of("area_um;deform\n50,5;0,01\n"),
             "cells.csv: line 2, column area_um: \"50,5\" has a decimal comma; export the table with decimal points.");
   EXPECT_EQ(refusal_of(header + "60,0.02,3\n"),
