@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -13,6 +16,7 @@
 #include "case/toml_json.h"
 #include "case/user_error.h"
 #include "measurement/hdf5_writing.h"
+#include "measurement/metadata.h"
 #include "measurement/text_table.h"
 #include "store/read_file.h"
 
@@ -75,12 +79,23 @@ bool write_column(hid_t group, const TextTable::Column& column) {
          ::H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) >= 0;
 }
 
+/// In the type that the field's programs give it. What begins with further zeros is a name of figures.
+bool write_value(hid_t file, const std::string& key, const std::string& text) {
+  const auto number = Metadata(std::map<std::string, Metadata::Value>{{key, text}}).number(key);
+  const bool is_name = text.size() > 1 && text[0] == '0' && std::isdigit(static_cast<unsigned char>(text[1])) != 0;
+  if (!number || !std::isfinite(*number) || is_name) return write_text(file, key, text);
+  if (text.find_first_not_of("-0123456789") != std::string::npos || std::abs(*number) > 1e15)
+    return write_attribute(file, key, H5T_NATIVE_DOUBLE, &*number);
+  const auto whole = static_cast<std::int64_t>(*number);
+  return write_attribute(file, key, H5T_NATIVE_INT64, &whole);
+}
+
 Hdf5Handle written(const TextTable& table) {
   Hdf5Handle file = file_in_memory();
   const Hdf5Handle group(::H5Gcreate2(file.get(), "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   bool good = file && group;
   for (const auto& column : table.columns) good = good && write_column(group.get(), column);
-  for (const auto& [key, value] : table.metadata) good = good && write_text(file.get(), key, value);
+  for (const auto& [key, value] : table.metadata) good = good && write_value(file.get(), key, value);
   return good ? std::move(file) : Hdf5Handle();
 }
 

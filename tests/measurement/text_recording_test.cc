@@ -50,6 +50,20 @@ TEST(TextRecording, FeaturesAndMetadataAreThoseOfTheTable) {
   EXPECT_FALSE(recording.has_contours() || recording.image_size("mask") || recording.is_single_precision("deform"));
 }
 
+TEST(TextRecording, MetadataHaveTheTypesOfTheFieldsPrograms) {
+  const ScratchFolder folder;
+  const Recording recording(
+      written(folder / "a.csv",
+              "# setup:channel width = 20.0\n# imaging:roi size x = 80\n# experiment:sample = 012\n"
+              "# experiment:date = 2016-01-29\n# setup:medium = nan\narea_um\n1\n"));
+  const auto& values = recording.metadata().values();
+  EXPECT_EQ(std::get<double>(values.at("setup:channel width")), 20);
+  EXPECT_EQ(std::get<double>(values.at("imaging:roi size x")), 80);
+  EXPECT_EQ(std::get<std::string>(values.at("experiment:sample")), "012");
+  EXPECT_EQ(std::get<std::string>(values.at("experiment:date")), "2016-01-29");
+  EXPECT_EQ(std::get<std::string>(values.at("setup:medium")), "nan");
+}
+
 TEST(TextRecording, SeveralAreOpenAtOnce) {
   const ScratchFolder folder;
   const Recording first(written(folder / "a.csv", "area_um\n1\n")), second(written(folder / "b.tsv", "area_um\n2\n"));
