@@ -63,10 +63,13 @@ def test_populations_take_tables(recording, tmp_path):
 def test_parquet_is_a_table(recording, tmp_path):
     pytest.importorskip("pyarrow")
     file, frame, metadata = recording
+    frame = frame.copy()
+    frame.attrs = {}
     frame.to_parquet(tmp_path / "a.parquet")
-    (tmp_path / "a.toml").write_text("".join(
-        f"[{section}]\n" + "".join(f"{key.split(':')[1]!r} = {value!r}\n" for key, value in metadata.items() if key.startswith(section))
-        for section in ("setup", "imaging")))
+    plain = {key: value if isinstance(value, str) else value.item() for key, value in metadata.items()}
+    sections = [[f"{key.split(':')[1]!r} = {value!r}" for key, value in plain.items() if key.startswith(section)]
+                for section in ("setup:", "imaging:")]
+    (tmp_path / "a.toml").write_text("\n".join(["[setup]", *sections[0], "[imaging]", *sections[1], ""]))
     same_frames(rheocyte.extract(tmp_path / "a.parquet", viscosity_mPas=5), rheocyte.extract(file, viscosity_mPas=5))
 
 
