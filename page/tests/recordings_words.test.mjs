@@ -66,6 +66,7 @@ test('names that begin alike differ in what is shown of them', () => {
   assert.deepEqual(distinctNames(['2026-03-01_M001_a.rtdc', '2026-03-01_M002_b.rtdc']), ['M001_a', 'M002_b']);
   assert.deepEqual(distinctNames(['control_1.rtdc', 'control_12.rtdc']), ['1', '12']);
   assert.deepEqual(distinctNames(['a.rtdc', 'b.rtdc']), ['a', 'b']);
+  assert.deepEqual(distinctNames(['a.csv', 'b.tsv', 'c.rtdc']), ['a', 'b', 'c']);
   assert.deepEqual(distinctNames(['a.rtdc', 'a.rtdc']), ['a', 'a']);
   assert.deepEqual(distinctNames([]), []);
 });

@@ -14,6 +14,7 @@ import numpy as np
 from rheocyte.errors import UserError, in_words_of_python
 from rheocyte.native_module import native
 from rheocyte.paths import path
+from rheocyte.tables_of_events import as_text, is_frame, is_parquet
 
 _SECTIONS = ("experiment", "imaging", "setup", "user")
 # They name the measurement: with another name a file would not be taken as the origin of the events.
@@ -29,8 +30,9 @@ class Source:
         self.place, self.name, self.warnings = place, name or place, list(warnings)
 
     def named(self, text):
-        """A text with the recording's name."""
-        return text.replace(self.place, self.name)
+        """A text with the recording's name; other files beside the recording are where the recording is."""
+        text = text.replace(self.place, self.name)
+        return text.replace(*(os.path.join(os.path.dirname(each), "") for each in (self.place, self.name)))
 
     def told(self, sentences):
         """Sentences about this recording, in words of Python."""
@@ -39,7 +41,11 @@ class Source:
 
 @contextmanager
 def source_of(given, gated=()):
-    """The Source of a path or dataset; `gated` are features that it must hold if the dataset has them."""
+    """The Source of a path, dataset or table; `gated` are features that it must hold if the dataset has them."""
+    if is_frame(given) or is_parquet(given):
+        with as_text(given) as (place, name, warnings):
+            yield from _under_its_name(Source(place, name, warnings))
+        return
     if not hasattr(given, "config"):
         if not given and isinstance(given, str):
             raise UserError("the recording is '', which is not a path of a file.")
@@ -65,10 +71,15 @@ def source_of(given, gated=()):
         for name in given.logs.keys():
             file.add_log(name, [str(line) for line in given.logs[name]])
         file.close()
-        try:
-            yield source
-        except UserError as error:
-            raise UserError(source.named(str(error))) from None
+        yield from _under_its_name(source)
+
+
+def _under_its_name(source):
+    """The source, for errors that call it by its name."""
+    try:
+        yield source
+    except UserError as error:
+        raise UserError(source.named(str(error))) from None
 
 
 def _origin(dataset):

@@ -20,8 +20,9 @@ from rheocyte.specs import read_spec
 def extract(recording, *, progress=None, **settings):
     """Young's modulus of each event of a recording, as `rheocyte extract` gives it.
 
-    recording       path of an .rtdc file, or an open dclab dataset: its own events (those of a child are the rows) and
-                    metadata are taken, also where they are not those of its file
+    recording       path of an .rtdc file or of a table of events (.csv, .tsv, .txt, .parquet), a DataFrame of pandas with
+                    dclab's names of features (docs/text-recordings.md), or an open dclab dataset: its own events (those
+                    of a child are the rows) and metadata are taken, also where they are not those of its file
     {settings}
     progress        called with the fraction that is done; True: a bar of tqdm where it is installed
 

@@ -14,8 +14,10 @@ _Progress = bool | Callable[[float], object] | None
 class _Dataset(Protocol):
     path: Any
 
+_Recording = _Path | _Dataset | pandas.DataFrame
+
 def extract(
-    recording: _Path | _Dataset,
+    recording: _Recording,
     *,
     table: _Path | None = None,
     section: Literal["tube", "square"] | None = None,
@@ -38,7 +40,7 @@ def extract(
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def moduli(
-    recording: _Path | _Dataset,
+    recording: _Recording,
     table: _Path | None = None,
     *,
     section: Literal["tube", "square"] | None = None,
@@ -60,7 +62,7 @@ def moduli(
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def time_course(
-    recordings: _Path | _Dataset | Sequence[_Path | _Dataset],
+    recordings: _Recording | Sequence[_Recording],
     table: _Path | None = None,
     contraction_um: ArrayLike | None = None,
     *,
@@ -80,7 +82,7 @@ def time_course(
     progress: _Progress = None,
 ) -> pandas.DataFrame: ...
 def population(
-    conditions: Mapping[str, _Path | _Dataset | Sequence[_Path | _Dataset]],
+    conditions: Mapping[str, _Recording | Sequence[_Recording]],
     *,
     model: str | None = None,
     section: Literal["tube", "square"] | None = None,

@@ -47,7 +47,10 @@ struct SettingOption {
 }  // namespace
 
 void declare_batch_options(CLI::App& command, BatchOptions& options) {
-  command.add_option("FILES", options.inputs, "recordings (.rtdc); folders with -r")->required();
+  command
+      .add_option("FILES", options.inputs,
+                  "recordings (.rtdc) or tables of events (.csv, .tsv, .txt); folders of .rtdc with -r")
+      ->required();
   command.add_option("-o,--output", options.folder, "folder for the results; default: the folder of each recording")
       ->type_name("DIR");
   command.add_flag("-r,--recursive", options.recursive, "search the given folders for recordings");

@@ -68,7 +68,9 @@ void choose_shapes(PlotOptions& options) {
 }  // namespace
 
 void declare_plot_options(CLI::App& command, PlotOptions& options, std::function<void()> run) {
-  command.add_option("FILES", options.inputs, "recordings (.rtdc), one panel each")->required();
+  command
+      .add_option("FILES", options.inputs, "recordings (.rtdc) or tables of events (.csv, .tsv, .txt), one panel each")
+      ->required();
   command
       .add_option("-o,--output", options.output,
                   "name of the pictures NAME.png and NAME.svg; default: name of the first recording with _rheocyte, in "

@@ -12,6 +12,7 @@
 #include "case/refuse_path.h"
 #include "case/user_error.h"
 #include "measurement/basin.h"
+#include "measurement/text_table.h"
 #include "store/build_info.h"
 #include "store/isolated.h"
 
@@ -87,7 +88,7 @@ void add_origin(CompanionFile& companion, const std::string& command, const Reco
                                "recording: " + recording.file().filename().string()};
   log.insert(log.end(), lines.begin(), lines.end());
   companion.add_log(log_of(command), log);
-  companion.add_basin(paths_to(recording.file(), folder));
+  if (!is_text_table(recording.file())) companion.add_basin(paths_to(recording.file(), folder));
 }
 
 bool is_companion_of(const std::string& command, const fs::path& file) {

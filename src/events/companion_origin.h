@@ -21,7 +21,7 @@ void describe_feature(CompanionFile& companion, const std::string& feature, cons
                       const std::string& meaning);
 
 /// Adds the log `rheocyte-COMMAND` (program, time, recording, and these lines) and the basin that leads from `folder`
-/// to the recording: where it is now, seen from there, and in that folder.
+/// to the recording, unless it is a text: where it is now, seen from there, and in that folder.
 void add_origin(CompanionFile& companion, const std::string& command, const Recording& recording,
                 const std::filesystem::path& folder, const std::vector<std::string>& lines);
 

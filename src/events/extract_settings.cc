@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "case/case_keys.h"
+#include "case/joined.h"
 #include "case/refuse_path.h"
+#include "case/stripped.h"
 #include "case/user_error.h"
 #include "events/plausibility.h"
+#include "measurement/text_table.h"
 #include "numeric/no_value.h"
 
 namespace rheocyte {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 // A key of the metadata, and what stands for it on the command line and in a case.
 struct Quantity {
@@ -44,13 +48,38 @@ double quantity(const Recording& recording, const std::optional<double>& given, 
 }
 
 void check_region(const Recording& recording) {
-  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
-  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string region = in_small_letters(recording.metadata().text("setup:chip region").value_or("channel"));
   if (region != "channel")
     refuse_path(recording.file(),
                 fmt::format("was recorded in the {}, where cells are not deformed by the channel; moduli exist "
                             "only for recordings with setup:chip region \"channel\".",
                             one_line(region, 40)));
+}
+
+/// What neither the metadata nor the options give, in one sentence; single quantities of .rtdc files have their own.
+void check_set_up(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
+  const bool is_text = is_text_table(recording.file());
+  std::vector<std::string> missing;
+  const auto need = [&](bool is_given, const char* key, const char* option) {
+    if (!is_given && !recording.metadata().has(key)) missing.push_back(fmt::format("{} ({})", key, option));
+  };
+  need(options.channel_width_um.has_value(), "setup:channel width", "--channel-width-um");
+  need(options.flow_rate_ul_s.has_value(), "setup:flow rate", "--flow-rate-ul-s");
+  need(pixels == PixelUse::ignore || options.pixel_size_um, "imaging:pixel size", "--pixel-size-um");
+  const bool has_viscosity = options.viscosity_mPas || recording.metadata().has(viscosity_key);
+  need(has_viscosity || options.medium, "setup:medium", "--medium or --viscosity-mPas");
+  need(has_viscosity || !options.temperature.empty() || !options.temperature_if_missing.empty() ||
+           recording.has_scalar("temp"),
+       "setup:temperature", "--temperature");
+  if (missing.size() < (is_text ? 1U : 2U)) return;
+  const bool is_one = missing.size() == 1;
+  std::string way_out = is_one ? "give it as this option" : "give them as these options";
+  if (is_text)
+    way_out +=
+        fmt::format(", or with the table (\"# setup:flow rate = 0.04\" in it, [setup] in {}; docs/text-recordings.md)",
+                    one_line(fs::path(recording.file()).replace_extension(".toml").filename().string(), 100));
+  refuse_path(recording.file(), fmt::format("the set-up is incomplete: {} {} missing; {}.", joined(missing, ", "),
+                                            is_one ? "is" : "are", way_out));
 }
 
 ViscosityModel chosen_model(const MeasuringOptions& options) {
@@ -145,6 +174,7 @@ double pixel_size_um(const Recording& recording, const std::optional<double>& gi
 
 ExtractSettings extract_settings(const MeasuringOptions& options, PixelUse pixels, const Recording& recording) {
   check_region(recording);
+  check_set_up(options, pixels, recording);
   ExtractSettings settings;
   auto& conditions = settings.conditions;
   ChannelFlow& flow = conditions.flow;

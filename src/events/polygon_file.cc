@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "case/refuse_path.h"
+#include "case/stripped.h"
 #include "case/to_path.h"
 #include "numeric/no_value.h"
 #include "numeric/number_from_chars.h"
@@ -24,18 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes_of_polygons = 16 << 20;
-
-std::string_view stripped(std::string_view text, std::string_view characters = " \t\r") {
-  const auto first = text.find_first_not_of(characters);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(characters) - first + 1);
-}
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
 
 /// Reads the lines of one polygon after the other.
 class PolygonReader {

@@ -11,6 +11,7 @@
 #include "case/refuse_path.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "measurement/text_table.h"
 
 namespace rheocyte {
 
@@ -18,8 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Or a table of events beside one.
 bool is_companion(const fs::path& file) {
-  return file.extension() == ".rtdc" && file.stem().string().ends_with(companion_suffix);
+  return (file.extension() == ".rtdc" || is_text_table(file)) && file.stem().string().ends_with(companion_suffix);
 }
 
 fs::path full_folder(const fs::path& folder) {
@@ -113,14 +115,14 @@ RecordingList list_recordings(const BatchOptions& options) {
 }
 
 std::vector<fs::path> without_companions_of_others(const std::vector<fs::path>& files) {
-  std::set<fs::path> given;
-  for (const auto& file : files) given.insert(in_full(file));
+  std::set<fs::path> given;  // without their endings
+  for (const auto& file : files) given.insert(in_full(file).replace_extension());
   std::vector<fs::path> kept;
   std::ranges::copy_if(files, std::back_inserter(kept), [&](const fs::path& file) {
     const std::string stem = file.stem().string();
     return !is_companion(file) ||
            !given.contains(
-               in_full(file.parent_path() / to_path(stem.substr(0, stem.size() - companion_suffix.size()) + ".rtdc")));
+               in_full(file.parent_path() / to_path(stem.substr(0, stem.size() - companion_suffix.size()))));
   });
   return kept;
 }

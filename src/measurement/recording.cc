@@ -75,7 +75,10 @@ Recording::Recording(const fs::path& file) {
 Recording::Recording(const fs::path& file, Opening& opening) : content_(std::make_unique<Content>()) {
   Content& c = *content_;
   c.path = file;
-  c.file = open_recording(file);
+  OpenedRecording opened = open_recording(file);
+  c.file = std::move(opened.file);
+  c.others = std::move(opened.others);
+  c.remarks = std::move(opened.remarks);
   std::error_code error;
   c.bytes = c.bytes_with_basins = fs::file_size(file, error);
   c.metadata = read_attributes(c.file.get());
@@ -133,7 +136,7 @@ const fs::path& Recording::file() const { return content_->path; }
 const Metadata& Recording::metadata() const { return content_->metadata; }
 
 std::vector<fs::path> Recording::files_of_basins() const {
-  std::vector<fs::path> files;
+  std::vector<fs::path> files = content_->others;
   for (const auto& basin : content_->basins) {
     if (!basin.recording) continue;
     files.push_back(basin.recording->file());

@@ -1,4 +1,4 @@
-// A recording of RT-DC: an .rtdc file (HDF5) with one row per event (docs/theory-extract.md, sec. "recordings").
+// A recording of RT-DC: an .rtdc file (HDF5) or a text, one row per event (docs/theory-extract.md, sec. "recordings").
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -32,7 +32,7 @@ class Recording {
 
   const std::filesystem::path& file() const;
   const Metadata& metadata() const;
-  /// The files in which basins lie, theirs among them: they, too, say what is read here.
+  /// The files in which basins lie, theirs among them, and those of metadata: they determine what is read here, too.
   std::vector<std::filesystem::path> files_of_basins() const;
 
   /// Number of events: the length that most features have. The metadata may say something else; then there is a remark.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "case/joined.h"
 #include "case/user_error.h"
 #include "measurement/recording_content.h"
 #include "numeric/no_value.h"
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_number_of_basins = 16;
 constexpr int max_number_of_files = 64;  // basins of basins included
 constexpr const char* internal_group = "basin_events";
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const auto& line : lines) text += line + "\n";
-  return text;
-}
 
 }  // namespace
 
@@ -41,9 +36,9 @@ void Recording::open_basins(Opening& opening) {
     const Hdf5Handle dataset = open_dataset(group.get(), name);
     const auto lines = dataset ? read_lines(dataset.get(), c.bytes) : std::nullopt;
     if (!lines) continue;
-    const auto definition = read_basin_definition(joined(*lines));
+    const auto definition = read_basin_definition(joined(*lines, "\n"));
     if (!definition)
-      c.remarks.push_back(why_basin_is_not_used(joined(*lines)));
+      c.remarks.push_back(why_basin_is_not_used(joined(*lines, "\n")));
     else if (definition->kind == BasinDefinition::Kind::cropped)
       cropped.push_back(*definition);
     else

@@ -25,6 +25,7 @@ struct Recording::Content {
   std::filesystem::path path;
   std::uintmax_t bytes = 0, bytes_with_basins = 0;
   PieceRead on_piece;
+  std::vector<std::filesystem::path> others;  ///< that contain metadata
   Hdf5Handle file, events_group, contours;
   Metadata metadata;
   Datasets scalars, images;

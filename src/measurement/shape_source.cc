@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/joined.h"
 #include "case/refuse_path.h"
 #include "case/user_error.h"
+#include "measurement/text_table.h"
 #include "numeric/quantile.h"
 
 namespace rheocyte {
@@ -34,6 +36,14 @@ void refuse_per_cent(const Recording& recording, const std::string& feature, std
                           feature, quantile(sorted, 0.5)));
 }
 
+[[noreturn]] void refuse_table(const Recording& table, const std::string& missing) {
+  std::string columns = joined(table.scalar_names(), ", ");
+  for (const auto& remark : table.remarks()) columns += "; " + remark.substr(0, remark.find_last_not_of('.') + 1);
+  refuse_path(table.file(), fmt::format("has no column {}; its columns are {}. Name columns as dclab does: area_um is "
+                                        "in um2, deform is 1 - circularity.",
+                                        missing, columns));
+}
+
 bool from_outline(const std::string& source) { return source == "contour" || source == "mask"; }
 
 }  // namespace
@@ -45,10 +55,13 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
       deformation_from_(first_there(recording, "deform", "circ")) {
   const auto name = one_line(recording.file().string(), 300);
   if (area_from_.empty() || deformation_from_.empty()) {
+    const char* const missing = area_from_.empty() ? "area_um" : "deform";
+    if (is_text_table(recording.file())) refuse_table(recording, missing);
     std::string remarks;  // perhaps they lie where they were not found
     for (const auto& remark : recording.remarks()) remarks += "; " + remark;
-    throw UserError(fmt::format("{}: has neither {} nor contours nor masks, so that no modulus can be determined{}",
-                                name, area_from_.empty() ? "area_um" : "deform", remarks.empty() ? "." : remarks));
+    throw UserError(
+        fmt::format("{}: has neither {} nor contours nor masks, so that no modulus can be determined{}", name,
+                    missing, remarks.empty() ? "." : remarks));
   }
   if (area_from_ != "area_um" && !(pixel_size_um > 0))
     throw UserError(

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "events/companion_origin.h"
+#include "measurement/text_table.h"
 
 namespace rheocyte {
 
@@ -25,11 +26,12 @@ void CompanionWriter::name(std::size_t column, const ColumnDescription& about, N
   if (is_free && free_.empty()) return missing_.push_back(about.role);
   const std::string& feature = names_.emplace_back(column, is_free ? free_.back() : about.role).second;
   if (is_free) free_.pop_back();
-  file_.add_feature(feature);
+  add_feature(feature);
   if (!is_known) describe_feature(file_, feature, about.role, about.sentence);
 }
 
 void CompanionWriter::add_feature(const std::string& name, bool is_stored) {
+  features_.insert(name);
   if (is_stored)
     file_.add_feature_of(recording_, name);
   else
@@ -43,6 +45,21 @@ void CompanionWriter::add_origin(const std::string& command, const std::filesyst
 
 void CompanionWriter::write(std::size_t first, std::span<const std::span<const double>> columns) {
   for (const auto& [column, feature] : names_) file_.write(feature, first, columns[column]);
+}
+
+void CompanionWriter::close() {
+  if (is_text_table(recording_.file())) write_other_columns();
+  file_.close();
+}
+
+void CompanionWriter::write_other_columns() {
+  std::vector<double> values(recording_.events());
+  for (const std::string& feature : recording_.scalar_names()) {
+    if (features_.contains(feature)) continue;
+    recording_.read_scalar(feature, 0, values);
+    add_feature(feature, true);
+    write(feature, 0, values);
+  }
 }
 
 }  // namespace rheocyte

@@ -2,6 +2,7 @@
 // userdef0 to userdef9 that the recording leaves free, with their roles in the metadata.
 #pragma once
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,18 +41,21 @@ class CompanionWriter {
   void write(const std::string& feature, std::size_t first, std::span<const double> values) {
     file_.write(feature, first, values);
   }
-  void close() { file_.close(); }
+  /// A companion of a text, to which no basin can lead, first gets all its other columns.
+  void close();
 
   /// The roles for which the recording leaves no feature.
   const std::vector<std::string>& missing() const { return missing_; }
 
  private:
   void name(std::size_t column, const ColumnDescription& about, Naming naming);
+  void write_other_columns();
 
   CompanionFile file_;
   const Recording& recording_;
   std::vector<std::string> free_;                           ///< the names that are left, in reverse order
   std::vector<std::pair<std::size_t, std::string>> names_;  ///< of the columns that have one
+  std::set<std::string> features_;                          ///< all that are declared
   std::vector<std::string> missing_;
 };
 

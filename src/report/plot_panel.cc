@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "case/refuse_path.h"
+#include "case/stripped.h"
 #include "case/user_error.h"
 #include "events/event_pass.h"
 #include "events/extract_settings.h"
@@ -148,9 +149,7 @@ void find_conditions(const Recording& recording, const PlotOptions& options, Lin
 }  // namespace
 
 bool is_of_the_reservoir(const Recording& recording) {
-  std::string region = recording.metadata().text("setup:chip region").value_or("channel");
-  std::ranges::transform(region, region.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return region != "channel";
+  return in_small_letters(recording.metadata().text("setup:chip region").value_or("channel")) != "channel";
 }
 
 void take_conditions(const Recording& recording, const PlotOptions& options, PlotPanel& panel) {

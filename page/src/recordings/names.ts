@@ -2,7 +2,7 @@
 
 /** Without their ending and without the words that all of them begin with: they differ where there is little room. */
 export function distinctNames(titles: string[]): string[] {
-  const names = titles.map((title) => title.replace(/\.rtdc$/, ''));
+  const names = titles.map((title) => title.replace(/\.(rtdc|csv|tsv|txt)$/, ''));
   if (new Set(names).size < 2) return names;
   let shared = 0;
   while (names.every((name) => name[shared] === names[0][shared])) ++shared;

@@ -6,7 +6,7 @@ export type Opener = (files: File[]) => Promise<void>;
 /** null: the program gets its files when it is started. */
 export const opener = store<Opener | null>(null);
 
-const endings = '.rtdc,.toml,.json,.csv,.txt';
+const endings = '.rtdc,.csv,.tsv,.toml,.json,.txt';
 
 export function OpenFiles() {
   const open = useStore(opener);
