@@ -238,7 +238,8 @@ def main():
     parser.add_argument("file", type=Path)
     parser.add_argument("--cells", type=int, default=2900)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--table", default="data/combined_HC-2D-EL-26.cbor")
+    parser.add_argument("--table", required=True, help="combined_*.cbor of examples/tables/combined-elongated.toml with "
+                        "--set cell.cortex.law=neo-hookean-reference --set table.max_deformation=0.08 --set table.accuracy=2e-3")
     parser.add_argument("--states", default="build/combined_states")
     parser.add_argument("--law", type=Path, help="the header to write")
     options = parser.parse_args()

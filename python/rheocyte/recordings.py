@@ -55,7 +55,7 @@ def moduli(recording, table=None, *, progress=None, **settings):
 
     recording       as for extract
     table           combined table: a folder of rheocyte.table (examples/tables/combined.toml), its combined_*.cbor, or the
-                    name of one that comes with the package; None: HC-2D-EL-26, of elongated cells
+                    name of one that comes with the package; None: HC-2D-NH-26, of elongated cells
     {settings}
     progress        as for extract
 

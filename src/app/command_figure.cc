@@ -65,7 +65,7 @@ void add_figure_command(CLI::App& app, int& exit_code) {
       ->type_name("VALUE");
   command
       ->add_option("--table", options->table,
-                   "table of cells with bulk and cortex for real-cells, e.g. HC-2D-EL-26: its best-fitting cells are "
+                   "table of cells with bulk and cortex for real-cells, e.g. HC-2D-NH-26: its best-fitting cells are "
                    "drawn with the median outlines")
       ->type_name("TABLE");
   command

@@ -97,7 +97,7 @@ void add_moduli_command(CLI::App& app, int& exit_code) {
       ->add_option(
           "--table", options->table,
           "table of cells with bulk and cortex: folder of `rheocyte table` (examples/tables/combined.toml), file "
-          "combined_*.cbor, or identifier of a table of the program; default: HC-2D-EL-26 (elongated cells)")
+          "combined_*.cbor, or identifier of a table of the program; default: HC-2D-NH-26 (elongated cells)")
       ->type_name("TABLE");
   declare_settings(*command, settings_of(*options));
   command->callback([options, &exit_code] {

@@ -47,7 +47,7 @@ Columns<E> effective_columns() {
           [](const E& e) { return e.large_over_small_modulus.error; })
       .add_with_error(
           {"axial_tension_large_over_small", "", "Axial tension of large over small cells",
-           "likewise; the model has one tension for all sizes", "", 0, digits_of_values},
+           "of the same cells; the model has one tension for all sizes", "", 0, digits_of_values},
           [](const E& e) { return e.large_over_small_tension.value; },
           [](const E& e) { return e.large_over_small_tension.error; })
       .add({"effective_modulus_share_percent", "%", "Events with an effective modulus",

@@ -56,7 +56,7 @@ std::map<std::string, fs::path> shipped_combined_tables() { return table_files(t
 std::map<std::string, fs::path> shipped_dynamic_tables() { return table_files(tables_folder(), "dynamic"); }
 
 fs::path combined_table_or_shipped(const fs::path& wanted) {
-  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex", "HC-2D-EL-26");
+  return wanted_or_shipped(wanted, "combined", "table of cells with bulk and cortex", "HC-2D-NH-26");
 }
 
 fs::path dynamic_table_or_shipped(const fs::path& wanted) {

@@ -342,8 +342,8 @@ TEST_F(ModuliCommand, TheOrderOfTheEventsDoesNotChangeADigit) {
 
 TEST_F(ModuliCommand, WithoutATableThatOfTheProgramIsTaken) {
   const Ended ended = run({{RHEOCYTE, "moduli", recording().string(), "--viscosity-mPas", "15"}});
-  EXPECT_NE(table().find("\n# table: HC-2D-EL-26\n"), std::string::npos) << ended.err;
-  EXPECT_EQ(nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json")).at("table"), "HC-2D-EL-26");
+  EXPECT_NE(table().find("\n# table: HC-2D-NH-26\n"), std::string::npos) << ended.err;
+  EXPECT_EQ(nlohmann::json::parse(content_of(folder_.path() / "M1_moduli.json")).at("table"), "HC-2D-NH-26");
 }
 
 TEST_F(ModuliCommand, CellsThatMoveTowardsSmallerXHaveTheSameModuli) {

@@ -110,9 +110,9 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   refused({"--model", "jelly"}, "--model");
   refused({"--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"},
-          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; the program provides HC-2D-EL-26");
+          "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; the program provides HC-2D-NH-26");
   refused({"--model", "cortex", "--table", "HC-2D-26"},
-          "--table HC-2D-26: there is no such file or folder. The program provides HC-2D-EL-26; `rheocyte table` "
+          "--table HC-2D-26: there is no such file or folder. The program provides HC-2D-NH-26; `rheocyte table` "
           "computes any other table of cells with bulk and cortex in two minutes");
 }
 

@@ -26,7 +26,7 @@ class CellsOfStiffnessInMemory : public ::testing::Test {
     report.recording = "cells.rtdc";
     static_cast<RecordingFacts&>(report) = events;
     report.median_viscosity_mPas = events.flow().viscosity_mPas;
-    report.table = "HC-2D-EL-26";
+    report.table = "HC-2D-NH-26";
     CombinedPopulations(options_).fit(events, report, {});
     return report;
   }
@@ -57,13 +57,13 @@ class CellsOfStiffnessInMemory : public ::testing::Test {
   PopulationOptions options_ = [] {
     PopulationOptions options;
     options.model = "cortex";
-    options.table = SHIPPED_TABLES "/combined_HC-2D-EL-26.cbor";
+    options.table = SHIPPED_TABLES "/combined_HC-2D-NH-26.cbor";
     options.section = Section::tube;
     return options;
   }();
   ModuliTable table_{[] {
     ModuliOptions options;
-    options.table = SHIPPED_TABLES "/combined_HC-2D-EL-26.cbor";
+    options.table = SHIPPED_TABLES "/combined_HC-2D-NH-26.cbor";
     return options;
   }()};
 };

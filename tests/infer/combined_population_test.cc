@@ -20,7 +20,7 @@ constexpr double pixel_um = 0.34;
 class CombinedPopulationTest : public ::testing::Test {
  protected:
   static const CombinedTable& table() {
-    static const CombinedTable content = read_combined_table(SHIPPED_TABLES "/combined_HC-2D-EL-26.cbor");
+    static const CombinedTable content = read_combined_table(SHIPPED_TABLES "/combined_HC-2D-NH-26.cbor");
     return content;
   }
   static CombinedLaw usual_law() {

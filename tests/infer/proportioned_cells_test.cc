@@ -79,7 +79,7 @@ TEST(ProportionedCells, HaveTheModulusOfDirectStatesInTheSquareChannel) {
 
 /// Of a table with other fractions and tensions of the cortex, by the same law.
 TEST(ProportionedCells, TheProportionsHardlyMatter) {
-  const CombinedTable other = shipped("HC-2D-EL-26");
+  const CombinedTable other = shipped("HC-2D-NH-26");
   const CombinedInterpolation table(other);
   const CellsAtRest rest = cells_at_rest(table.spec());
   CellCoordinates cell = table.box().least;
@@ -88,7 +88,7 @@ TEST(ProportionedCells, TheProportionsHardlyMatter) {
     cell(x_fraction) = fraction, cell(x_ratio) = tension_ratio;
     const CombinedState state = table.at(cell);
     EXPECT_TRUE(state.inside);
-    return cells_by_reference_area().estimate(figure_of(state), {newtonian}, 0).by_scatter.effective_modulus_kPa /
+    return cells_by_current_area().estimate(figure_of(state), {newtonian}, 0).by_scatter.effective_modulus_kPa /
            effective_modulus_kPa(rest, cell, state).value;
   };
   EXPECT_NEAR(ratio_at(0.65, 0.615), 1, 0.02);
@@ -126,7 +126,7 @@ TEST(ProportionedCells, SofterCellsHaveABound) {
 }
 
 TEST(ProportionedCells, NeedOneFractionAndOneTension) {
-  EXPECT_THROW(ProportionedCells(shipped("HC-2D-EL-26")), UserError);
+  EXPECT_THROW(ProportionedCells(shipped("HC-2D-NH-26")), UserError);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST(SquareCourse, NothingIsChangedMoreThanTheLargestCellsAndAllIsFinite) {
 
 /// ln(area / um2), deformation, Lambda1 / Lambda2 and modes 2 to 7 of one cell.
 using Features = std::array<double, 9>;
-/// Cells with bulk and cortex (20 um, 0.04 ul/s, 6 mPa s at the wall) as the table HC-2D-EL-26 has them and as
+/// Cells with bulk and cortex (20 um, 0.04 ul/s, 6 mPa s at the wall) as a table of `neo-hookean-reference` cortices has them and as
 /// `rheocyte solve` gives them in the square with a bending stiffness of 2e3 kBT; none is one to which the law was
 /// fitted.
 struct InBoth {
