@@ -6,6 +6,7 @@ from pathlib import Path
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples/recordings"
 # A number that belongs to no name such as c3, E2D or HL60.
+HASH = re.compile(r"(hash) [0-9a-f]{16}\b")
 NUMBER = re.compile(r"(?<![\w.])(?<!\w-)[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
 CELLS = """[recording]
 cells = 120
@@ -81,8 +82,8 @@ CALLS = {
 
 
 def without_numbers(text):
-    """Each number as #, and one blank in place of several, whose number depends on the digits."""
-    return re.sub(r"(?<=\S) +", " ", NUMBER.sub("#", text))
+    """Each number and hash as #, and one blank in place of several, whose number depends on the digits."""
+    return re.sub(r"(?<=\S) +", " ", NUMBER.sub("#", HASH.sub(r"\1 #", text)))
 
 
 def _printed(program, call, folder):

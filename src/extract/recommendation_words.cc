@@ -91,9 +91,10 @@ std::string effective_text(const Recommendation& r, const ShapeVerdict& v) {
       "the axis in height); viscosity, flow rate and pixel size are not included): the cells are longer than the flow "
       "alone would make them. A homogeneous solid of this modulus is elongated equally by a small tension. With the "
       "proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial tension is {} Pa, {:.2g} of "
-      "the wall shear stress. {}",
+      "the wall shear stress.{} {}",
       text_with_errors(r.kPa, 3), cell.events, text_with_errors(cell.stiffness_kPa, 3),
       text_with_errors(cell.axial_tension_Pa, 3), cell.axial_tension_Pa.value / cell.wall_stress_Pa,
+      v.has_cortex_shapes() ? "" : " Homogeneous solids, which only outlines can exclude, would have 30 to 55 % more.",
       by_deformation_text(v));
 }
 
