@@ -108,7 +108,7 @@ TEST_F(PopulationCommand, WhatCellsWithACortexCannotBeAskedIsASentence) {
   };
   refused({"--model", "cortex", "--by", "deformation"}, "--by deformation and --model cortex contradict each other");
   refused({"--model", "jelly"}, "--model");
-  refused({"--section", "tube"}, "--section is for --model cortex");
+  refused({"--model", "solid", "--section", "tube"}, "--section is for --model cortex");
   refused({"--model", "cortex", "--table", "HE-3D-el-26"},
           "--table HE-3D-el-26: it is not a table of cells with bulk and cortex; the program provides HC-2D-NH-26");
   refused({"--model", "cortex", "--table", "HC-2D-26"},
