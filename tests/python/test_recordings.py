@@ -252,7 +252,7 @@ def test_what_is_said_names_arguments_not_options(arguments, sentence, tmp_path)
 def test_warnings_name_arguments_too(tmp_path):
     rheocyte.synth(CELLS, tmp_path / "cells.rtdc", recording__cells=20)
     said = rheocyte.extract(tmp_path / "cells.rtdc", temperature=25).attrs["warnings"]
-    assert any(line.startswith("temperature 25 is taken") and "temperature_if_missing" in line for line in said)
+    assert any(line.startswith("temperature 25 replaces") and "temperature_if_missing" in line for line in said)
 
 
 def test_moduli_of_bulk_and_cortex_need_their_table(tmp_path):
