@@ -90,7 +90,7 @@ class TablePicture(unittest.TestCase):
         self.assertEqual(len(curve), 12)
 
     def test_what_is_missing_or_damaged_is_named(self):
-        for change, words in ((lambda: None, "holds 0 files table_"),
+        for change, words in ((lambda: None, "contains 0 files table_"),
                               (lambda: write_table(self.folder, "modulus"), "young_modulus_kPa or cortex_modulus"),
                               (lambda: (self.folder / "table_XX-2D-26.csv").write_text("radius_um\n"), "has no column")):
             change()

@@ -112,7 +112,7 @@ TEST_F(Folder, AForeignOneIsRefusedByName) {
   write(2, encode_checkpoint(some_checkpoint(10), some_case()));
   EXPECT_NE(refusal(some_case({"cell.bulk.young_modulus_kPa=2"})).find("another case"), std::string::npos);
   EXPECT_EQ(refusal(some_case({"time.end_us=900"})), "accepted");
-  EXPECT_NE(refusal(some_case({"time.end_us=9"})).find("10 us already"), std::string::npos);
+  EXPECT_NE(refusal(some_case({"time.end_us=9"})).find("already reached 10 us"), std::string::npos);
 }
 
 TEST_F(Folder, WithoutACheckpointIsRefused) {
