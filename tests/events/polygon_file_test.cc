@@ -73,9 +73,9 @@ TEST(PolygonFile, WhatIsNoneIsRefusedWithItsLine) {
   };
   expect_file_refused(with(""), "contains no polygon filters");
   expect_file_refused(with("area_um,deform=1,2:3,4:5,6\n"), "line 1 is not a line of a polygon filter");
-  expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 x\n"), "line 3 is none");
-  expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 inf\n"), "line 3 is none");
-  expect_file_refused(with("[Polygon 0]\nColour = red\n"), "line 2 is none");
+  expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 x\n"), "line 3 is not a line of a polygon filter");
+  expect_file_refused(with("[Polygon 0]\nX Axis = a\npoint0 = 1 inf\n"), "line 3 is not a line of a polygon filter");
+  expect_file_refused(with("[Polygon 0]\nColour = red\n"), "line 2 is not a line of a polygon filter");
   expect_file_refused(with("[Polygon 0]\nX Axis = a\nY Axis = b\npoint0 = 1 2\n"), "three corners");
   expect_file_refused(folder / "missing.poly", "cannot be read (No such file");
   ASSERT_EQ(::mkfifo((folder / "pipe.poly").c_str(), 0600), 0);

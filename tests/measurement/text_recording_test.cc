@@ -111,7 +111,7 @@ TEST(TextRecording, FilesThatAreNoTextAreNamedForWhatTheyAre) {
   expect_refusal("a.parquet", "PAR1", "read_parquet('");
   expect_refusal("renamed.csv", "PAR1", "Parquet");
   expect_refusal("none.csv", "", "is empty");
-  expect_refusal("header.csv", "area_um,deform\n", "holds no events");
+  expect_refusal("header.csv", "area_um,deform\n", "contains no events");
   expect_refusal("cells.rtdc", "area_um,deform\n1,2\n", "is not an HDF5 file");
   EXPECT_NE(refusal_of(folder / "missing.csv").find("there is no such file"), std::string::npos);
 }
