@@ -66,11 +66,12 @@ Setting patience(std::optional<double>& seconds) {
 }
 
 Setting axial_tension(std::optional<double>& Pa, std::string_view otherwise) {
-  return of_key(case_key("flow.axial_tension_Pa"),
-                setting("axial_tension_Pa", "Axial tension", &Pa,
-                        "axial tension of the liquid, for the effective modulus of recordings without inertia ratios; equal for "
-                        "equal medium, channel and flow rate",
-                        otherwise));
+  return of_key(
+      case_key("flow.axial_tension_Pa"),
+      setting("axial_tension_Pa", "Axial tension", &Pa,
+              "axial tension of the liquid, for the effective modulus of recordings without inertia ratios; equal for "
+              "equal medium, channel and flow rate",
+              otherwise));
 }
 
 /// Of the channel, in two meanings.

@@ -40,8 +40,8 @@ inline constexpr double error_of_unseen_cortex = 0.35;
 
 /// Of the effective modulus of cells with a cortex, relative, by the proportions of bulk, cortex and tension: at equal
 /// area, deformation and inertia ratio it moves by -3 to +9 % where the cortex makes 0.45 to 0.75 of the stiffness and
-/// its tension is 0.4 to 0.85 of E2D, by up to 17 % at 0.2; a solid would have 30 to 55 % more (docs/theory-extract.md, sec. "The effective
-/// modulus"). Of E + E2D / r0, and of the axial tension.
+/// its tension is 0.4 to 0.85 of E2D, by up to 17 % at 0.2; a solid would have 30 to 55 % more (docs/theory-extract.md,
+/// sec. "The effective modulus"). Of E + E2D / r0, and of the axial tension.
 inline constexpr double error_of_proportions = 0.04, error_of_unseen_proportions = 0.1, stiffness_by_proportions = 0.3,
                         tension_by_proportions = 0.15;
 

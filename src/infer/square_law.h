@@ -21,8 +21,9 @@ inline constexpr double error_between_branches = 2e-4;
 inline constexpr double error_factor_of_other_laws = 6;
 
 /// What is added to the features of the neo-Hookean cell with the same radius at rest, moduli and tensions in a
-/// table of cells whose cortex has an energy per reference area, which are those of a tube and of a cortex that a bending stiffness keeps smooth, and how well that is
-/// known. Beyond the cells to which the law was fitted the nearest counts; modes beyond the seventh do not change.
+/// table of cells whose cortex has an energy per reference area, which are those of a tube and of a cortex that a
+/// bending stiffness keeps smooth, and how well that is known. Beyond the cells to which the law was fitted the nearest
+/// counts; modes beyond the seventh do not change.
 ShapeErrors change_by_square(const CellInSquare& cell);
 
 }  // namespace rheocyte

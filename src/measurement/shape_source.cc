@@ -59,9 +59,8 @@ ShapeSource::ShapeSource(const Recording& recording, double pixel_size_um)
     if (is_text_table(recording.file())) refuse_table(recording, missing);
     std::string remarks;  // perhaps they lie where they were not found
     for (const auto& remark : recording.remarks()) remarks += "; " + remark;
-    throw UserError(
-        fmt::format("{}: has neither {} nor contours nor masks, so that no modulus can be determined{}", name,
-                    missing, remarks.empty() ? "." : remarks));
+    throw UserError(fmt::format("{}: has neither {} nor contours nor masks, so that no modulus can be determined{}",
+                                name, missing, remarks.empty() ? "." : remarks));
   }
   if (area_from_ != "area_um" && !(pixel_size_um > 0))
     throw UserError(

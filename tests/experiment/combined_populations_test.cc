@@ -73,8 +73,8 @@ TEST_F(CellsOfStiffnessInMemory, WithinTheTableAreAllFittedThere) {
   EXPECT_TRUE(report.failure.empty()) << report.failure;
   EXPECT_LT(report.beyond.on(TableSide::softer) + report.beyond.on(TableSide::longer), report.seen_events() / 100);
   // Bending of 3e4 kBT at the table's flow, which it multiplies by 2.5, is 0.1 % of it.
-  const double truth =
-      std::log(effective_modulus<double>({0.56 * 3.5, 0.44 * 3.5 * 6.5, 0.5, tension_ratio * 0.44 * 3.5 * 6.5, 0.3, 6.5}));
+  const double truth = std::log(
+      effective_modulus<double>({0.56 * 3.5, 0.44 * 3.5 * 6.5, 0.5, tension_ratio * 0.44 * 3.5 * 6.5, 0.3, 6.5}));
   const QuantityEstimate* effective = report.estimate(PopulationQuantity::effective_modulus);
   ASSERT_NE(effective, nullptr);
   EXPECT_NEAR(effective->mean.value, truth, 3 * std::hypot(std::sqrt(effective->mean.variance), 0.003));

@@ -143,9 +143,9 @@ TEST(SquareCourse, NothingIsChangedMoreThanTheLargestCellsAndAllIsFinite) {
 
 /// ln(area / um2), deformation, Lambda1 / Lambda2 and modes 2 to 7 of one cell.
 using Features = std::array<double, 9>;
-/// Cells with bulk and cortex (20 um, 0.04 ul/s, 6 mPa s at the wall) as a table of `neo-hookean-reference` cortices has them and as
-/// `rheocyte solve` gives them in the square with a bending stiffness of 2e3 kBT; none is one to which the law was
-/// fitted.
+/// Cells with bulk and cortex (20 um, 0.04 ul/s, 6 mPa s at the wall) as a table of `neo-hookean-reference` cortices
+/// has them and as `rheocyte solve` gives them in the square with a bending stiffness of 2e3 kBT; none is one to which
+/// the law was fitted.
 struct InBoth {
   double cortex_fraction, cortex_tension, thinning, error_factor;
   Features table, square;
