@@ -88,6 +88,7 @@ void Extraction::add_effective_cell(ExtractSummary& s) const {
                                       conditions().pixel_size_um, tension_);
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), s.shapes.has_cortex_shapes(),
                       s.shapes.effective);
+  if (s.shapes.is_tension_given) s.shapes.effective.axial_tension_Pa = {.value = tension_.value_Pa};
 }
 
 void Extraction::add_effective_events(ExtractSummary& s) const {

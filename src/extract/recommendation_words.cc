@@ -83,16 +83,26 @@ std::string by_deformation_text(const ShapeVerdict& v) {
   return "Area and deformation alone give no median: too many events are beyond their table.";
 }
 
+/// By what the median cell was found, and why it is one with a cortex.
+struct EffectiveWords {
+  std::string_view data, why;
+};
+EffectiveWords effective_words(const ShapeVerdict& v) {
+  if (v.is_tension_given) return {"area and deformation", "the axial tension of the liquid is given"};
+  return {"area, deformation and inertia ratio", "the cells are longer than the flow alone would make them"};
+}
+
 std::string effective_text(const Recommendation& r, const ShapeVerdict& v) {
   const EffectiveCell& cell = v.effective;
+  const auto [data, why] = effective_words(v);
   return fmt::format(
-      "report an effective Young's modulus of {} kPa (cell with the median area, deformation and inertia ratio of {} "
-      "events; errors: statistical; systematic (pixels, section, proportions and law of the cortex, inertia, cells off "
-      "the axis in height); viscosity, flow rate and pixel size are not included): the cells are longer than the flow "
-      "alone would make them. A homogeneous solid of this modulus is elongated equally by a small tension. With the "
-      "proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial tension is {} Pa, {:.2g} of "
-      "the wall shear stress.{} {}",
-      text_with_errors(r.kPa, 3), cell.events, text_with_errors(cell.stiffness_kPa, 3),
+      "report an effective Young's modulus of {} kPa (cell with the median {} of {} events; errors: statistical; "
+      "systematic (pixels, section, proportions and law of the cortex, inertia, cells off the axis in height); "
+      "viscosity, "
+      "flow rate and pixel size are not included): {}. A homogeneous solid of this modulus is elongated equally by a "
+      "small tension. With the proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial "
+      "tension is {} Pa, {:.2g} of the wall shear stress.{} {}",
+      text_with_errors(r.kPa, 3), data, cell.events, why, text_with_errors(cell.stiffness_kPa, 3),
       text_with_errors(cell.axial_tension_Pa, 3), cell.axial_tension_Pa.value / cell.wall_stress_Pa,
       v.has_cortex_shapes() ? "" : " Homogeneous solids, which only outlines can exclude, would have 30 to 55 % more.",
       by_deformation_text(v));

@@ -13,10 +13,11 @@ namespace {
 
 constexpr std::string_view effective_definition =
     "The effective Young's modulus is that of the homogeneous solid which a small axial tension elongates as much as "
-    "the cell with its bulk, cortex and cortical tension. Radius, stiffness and the axial tension of the liquid were "
-    "determined from the medians of area, deformation and inertia ratio of the events of each recording (cells with a "
-    "neo-Hookean bulk and cortex in the proportions of HL60 cells, square channel; Young's modulus of the bulk, area "
-    "modulus and tension of the cortex in fixed ratios).";
+    "the cell with its bulk, cortex and cortical tension. Radius, stiffness and, unless it was given, the axial "
+    "tension "
+    "of the liquid were determined from the medians of area, deformation and inertia ratio of the events of each "
+    "recording (cells with a neo-Hookean bulk and cortex in the proportions of HL60 cells, square channel; Young's "
+    "modulus of the bulk, area modulus and tension of the cortex in fixed ratios).";
 
 /// Channel, liquid, pixels and gates.
 std::string measurement_text(const RecordingFacts& r, double viscosity_mPas) {
