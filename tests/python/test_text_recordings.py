@@ -59,7 +59,7 @@ def test_populations_take_tables(recording, tmp_path):
     for other in found[1:]:
         same_frames(other.drop(columns="recording"), found[0].drop(columns="recording"))
     assert [each["recording"][0] for each in found] == [str(file), str(text), "the table"]
-    with pytest.raises(UserError, match="holds the same events"):
+    with pytest.raises(UserError, match="contains the same events"):
         rheocyte.population({"a": [file], "b": [text]}, by="deformation")
 
 
