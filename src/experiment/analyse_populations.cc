@@ -80,6 +80,7 @@ std::string PopulationAnalysis::hash_of_settings(const std::string& table, const
   lines.push_back(fmt::format("population of cells: {}, by {}, outline noise {} um{}{}", model_->name(), name_of(by_),
                               options_.outline_noise_um.value_or(0), options_.no_bins ? ", without bins" : "",
                               options_.shared_spread ? ", one spread for each condition" : ""));
+  if (options_.axial_tension_Pa) lines.push_back(fmt::format("axial tension: {} Pa", *options_.axial_tension_Pa));
   return settings_hash(lines);
 }
 
@@ -104,8 +105,9 @@ RecordingReport PopulationAnalysis::described(const Place& place, const Populati
   r.settings_hash = hash_of_settings(r.table, events);
   r.warnings = events.warnings;
   if (!events.gates_beside_the_model.empty() && events.gated > 0)
-    r.warnings.push_back(fmt::format("the gates on {} are not part of the model: what they take away may shift E.",
-                                     events.gates_beside_the_model));
+    r.warnings.push_back(
+        fmt::format("the gates on {} are not part of the model: what they exclude may change the modulus.",
+                    events.gates_beside_the_model));
   return r;
 }
 

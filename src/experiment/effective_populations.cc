@@ -97,7 +97,7 @@ void EffectivePopulations::share(std::span<RecordingReport> recordings) {
     if (!tension) continue;
     const double Pa = std::exp(tension->log_over_wall_stress) * r.wall_stress_Pa();
     r.failure.clear();
-    take_cell(without_ratios_[k], {Pa, Pa * tension->error}, r);
+    take_cell(without_ratios_[k], {Pa, Pa * tension->deviation}, r);
     r.warnings.push_back(fmt::format(
         "there are neither outlines nor inertia ratios: the axial tension, {:.0f} Pa, is that of the other recordings "
         "of the same medium, channel and flow rate.",

@@ -30,8 +30,9 @@ void add(const Seen& seen, std::size_t event, PopulationEvents& all) {
 }
 
 void describe_gates(const Gates& gates, const std::optional<StiffnessMeasure>& by, PopulationEvents& all) {
-  all.gates_beside_the_model = by == StiffnessMeasure::asymmetry ? gates.description_without({"area_um"})
-                                                                 : gates.description_without({"area_um", "deform"});
+  const bool is_deformation_modelled = by && by != StiffnessMeasure::asymmetry;
+  all.gates_beside_the_model = is_deformation_modelled ? gates.description_without({"area_um", "deform"})
+                                                       : gates.description_without({"area_um"});
   const auto area = gates.limits_of("area_um"), deformation = gates.limits_of("deform");
   all.least_area_um2 = area.min, all.greatest_area_um2 = area.max;
   all.least_deformation = deformation.min, all.greatest_deformation = deformation.max;

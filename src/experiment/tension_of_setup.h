@@ -11,9 +11,9 @@
 namespace rheocyte {
 
 /// The mean of ln of the axial tension over the wall shear stress of the recordings that were measured as this one and
-/// have a tension, and its standard error by their scatter; nothing if they are fewer than two.
+/// have a tension, and the standard deviation between them; nothing if they are fewer than two.
 struct SharedTension {
-  double log_over_wall_stress, error;
+  double log_over_wall_stress, deviation;
 };
 std::optional<SharedTension> tension_of_setup(std::span<const RecordingReport> recordings,
                                               const RecordingReport& recording);

@@ -67,6 +67,7 @@ class Extraction {
   std::string beyond_the_square() const;
   void add_soft_ends(ExtractSummary& summary) const;
   void add_effective_cell(ExtractSummary& summary) const;
+  std::string gates_on_shapes() const;
   void add_effective_events(ExtractSummary& summary) const;
   void collect();
   void compute_effective(const MeasuredEvents& events);

@@ -1,6 +1,8 @@
 // What an extraction says of all events of its recording.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -75,10 +77,28 @@ ExtractSummary Extraction::summary() {
     add_effective_cell(s);
   s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
+  if (s.shapes.effective.is_found())
+    if (const auto gates = gates_on_shapes(); !gates.empty()) s.warnings.push_back(gates);
   if (comparison_.is_made()) s.warnings.push_back(comparison_.sentence(conditions().flow.exponent));
   if (events_.recording().has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
+}
+
+/// Cells are then selected by what the effective modulus follows from.
+std::string Extraction::gates_on_shapes() const {
+  const Gates& gates = events_.gates();
+  const bool are_shapes_limited =
+      std::ranges::any_of(std::array{"deform", "inert_ratio_cvx", "circ"}, [&](auto feature) {
+        const auto [min, max] = gates.limits_of(feature);
+        return std::isfinite(min) || std::isfinite(max);
+      });
+  if (!are_shapes_limited) return {};
+  return fmt::format(
+      "the gates on the shape ({}) select cells by their deformation: the effective modulus is that of the selected "
+      "cells, "
+      "not that of all.",
+      gates.description_without({"area_um"}));
 }
 
 void Extraction::add_effective_cell(ExtractSummary& s) const {

@@ -48,7 +48,7 @@ void add_set_up(const fs::path& toml, MetadataTexts& metadata) {
       if (value.is_structured())
         throw UserError(fmt::format("{}: [{}] {} must be a number or a text; names with blanks stand in quotes.", name,
                                     section, one_line(key, 60)));
-      add_metadata(metadata, section + ":" + key, value_text(value), name);
+      add_metadata(metadata, fmt::format("{}:{}", section, key), value_text(value), name);
     }
   }
 }
