@@ -33,7 +33,18 @@ std::vector<RecordingReports> setups_of(const std::vector<RecordingReport>& reco
   return setups;
 }
 
-/// Mean and standard error of ln of the ratios that recordings have.
+/// Mean of logarithms, and the standard deviation between them; at least two.
+struct LogMean {
+  double value = no_value, deviation = no_value;
+};
+LogMean mean_of_logs(const std::vector<double>& logs) {
+  const double mean = mean_of(logs);
+  double squares = 0;
+  for (const double log : logs) squares += std::pow(log - mean, 2) / double(logs.size() - 1);
+  return {mean, std::sqrt(squares)};
+}
+
+/// Mean of ln of the ratios that recordings have, and its standard error.
 struct MeanRatio {
   double log = no_value, error = no_value;
 };
@@ -43,10 +54,8 @@ MeanRatio mean_ratio(const RecordingReports& recordings, Median EffectiveCell::*
     if (r->effective && std::isfinite(((*r->effective).*ratio).value))
       logs.push_back(std::log(((*r->effective).*ratio).value));
   if (logs.size() < fewest_recordings) return {};
-  const double mean = mean_of(logs);
-  double squares = 0;
-  for (const double log : logs) squares += std::pow(log - mean, 2);
-  return {mean, std::sqrt(squares / double(logs.size() - 1) / double(logs.size()))};
+  const auto [mean, deviation] = mean_of_logs(logs);
+  return {mean, deviation / std::sqrt(double(logs.size()))};
 }
 
 /// Cells of all sizes are under one tension; empty where that is not known.
@@ -56,8 +65,7 @@ std::string sentence_on_sizes(const RecordingReports& setup) {
   if (!std::isfinite(modulus.log) || !std::isfinite(tension.log)) return {};
   return fmt::format(
       "cells of the largest third of the areas over those of the smallest: E_eff {:.2f} +- {:.2f}, axial tension "
-      "{:.2f} "
-      "+- {:.2f}: {}",
+      "{:.2f} +- {:.2f}: {}",
       std::exp(modulus.log), std::exp(modulus.log) * modulus.error, std::exp(tension.log),
       std::exp(tension.log) * tension.error,
       std::abs(tension.log) < std::log1p(most_from_mean) ? "one tension for all sizes, as the model requires"
@@ -65,10 +73,13 @@ std::string sentence_on_sizes(const RecordingReports& setup) {
                                                            "modulus may depend on the size for this reason only");
 }
 
+/// ln of the axial tension over the wall shear stress, of a recording that has a tension.
+double log_over_wall_stress(const RecordingReport& r) {
+  return r.estimate(PopulationQuantity::axial_tension)->mean.value - std::log(r.wall_stress_Pa());
+}
 double log_over_wall_stress(const RecordingReports& setup) {
   std::vector<double> logs;
-  for (const RecordingReport* r : setup)
-    logs.push_back(r->estimate(PopulationQuantity::axial_tension)->mean.value - std::log(r->wall_stress_Pa()));
+  for (const RecordingReport* r : setup) logs.push_back(log_over_wall_stress(*r));
   return mean_of(logs);
 }
 
@@ -109,16 +120,12 @@ std::string sentence_on(const RecordingReports& setup) {
 std::optional<SharedTension> tension_of_setup(std::span<const RecordingReport> recordings,
                                               const RecordingReport& recording) {
   std::vector<double> logs;
-  for (const RecordingReport& r : recordings) {
-    const QuantityEstimate* const tension = r.estimate(PopulationQuantity::axial_tension);
-    if (tension && differences_within({&recording, &r}).empty())
-      logs.push_back(tension->mean.value - std::log(r.wall_stress_Pa()));
-  }
+  for (const RecordingReport& r : recordings)
+    if (r.estimate(PopulationQuantity::axial_tension) && differences_within({&recording, &r}).empty())
+      logs.push_back(log_over_wall_stress(r));
   if (logs.size() < 2) return {};
-  const double mean = mean_of(logs);
-  double squares = 0;
-  for (const double log : logs) squares += std::pow(log - mean, 2) / double(logs.size() - 1);
-  return SharedTension{mean, std::sqrt(squares)};
+  const auto [mean, deviation] = mean_of_logs(logs);
+  return SharedTension{mean, deviation};
 }
 
 std::vector<std::string> tensions_of_setups(const std::vector<RecordingReport>& recordings) {

@@ -96,8 +96,7 @@ std::string Extraction::gates_on_shapes() const {
   if (!are_shapes_limited) return {};
   return fmt::format(
       "the gates on the shape ({}) select cells by their deformation: the effective modulus is that of the selected "
-      "cells, "
-      "not that of all.",
+      "cells, not that of all.",
       gates.description_without({"area_um"}));
 }
 

@@ -1,7 +1,6 @@
 #include "report/population_columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "case/joined.h"
@@ -50,27 +49,22 @@ void add_events(ColumnList<RecordingReport>& list) {
 /// What another model would need.
 void add_observed(const PopulationReport& report, ColumnList<RecordingReport>& list) {
   using R = RecordingReport;
-  constexpr std::array<std::pair<SeenMeasure, const char*>, 9> measures{{{SeenMeasure::area_um2, "um2"},
-                                                                         {SeenMeasure::deformation, ""},
-                                                                         {SeenMeasure::inertia_ratio, ""},
-                                                                         {SeenMeasure::mode_2, ""},
-                                                                         {SeenMeasure::mode_3, ""},
-                                                                         {SeenMeasure::mode_4, ""},
-                                                                         {SeenMeasure::mode_5, ""},
-                                                                         {SeenMeasure::mode_6, ""},
-                                                                         {SeenMeasure::mode_7, ""}}};
-  constexpr std::array names{"area",   "deformation", "inertia_ratio", "mode_2", "mode_3",
-                             "mode_4", "mode_5",      "mode_6",        "mode_7"};
-  for (std::size_t k = 0; k < measures.size(); ++k) {
-    const auto [measure, unit] = measures[k];
+  struct Observed {
+    SeenMeasure measure;
+    const char *name, *unit;
+  };
+  for (const auto& [measure, name, unit] :
+       {Observed{SeenMeasure::area_um2, "area", "um2"}, Observed{SeenMeasure::deformation, "deformation", ""},
+        Observed{SeenMeasure::inertia_ratio, "inertia_ratio", ""}, Observed{SeenMeasure::mode_2, "mode_2", ""},
+        Observed{SeenMeasure::mode_3, "mode_3", ""}, Observed{SeenMeasure::mode_4, "mode_4", ""},
+        Observed{SeenMeasure::mode_5, "mode_5", ""}, Observed{SeenMeasure::mode_6, "mode_6", ""},
+        Observed{SeenMeasure::mode_7, "mode_7", ""}}) {
     const auto m = std::size_t(measure);
     if (std::ranges::none_of(report.recordings, [m](const R& r) { return std::isfinite(r.observed[m].value); }))
       continue;
     const std::string suffix = *unit == 0 ? "" : std::string("_") + unit;
     list.add_with_error(
-        {.name = std::string(names[k]) + "_median" + suffix,
-         .unit = unit,
-         .sentence = "as measured, median of the events"},
+        {.name = std::string(name) + "_median" + suffix, .unit = unit, .sentence = "as measured, median of the events"},
         [m](const R& r) { return r.observed[m].value; }, [m](const R& r) { return r.observed[m].error; });
   }
   list.add_with_error(
