@@ -50,9 +50,9 @@ void add_product(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& 
 }  // namespace
 
 template <class Scalar>
-void multiply(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& b, Scalar scale, bool anew, Scalar* c,
-              Eigen::Index stride) {
-  if (anew) {
+void multiply(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& b, Scalar scale, bool overwrites,
+              Scalar* c, Eigen::Index stride) {
+  if (overwrites) {
     for (Eigen::Index j = 0; j < b.columns; ++j) std::fill_n(c + stride * j, a.rows, Scalar(0));
   }
   if (a.rows == 0 || b.columns == 0 || a.columns == 0) return;

@@ -2,6 +2,10 @@
 // source, which took a third of the time to compile the solver. Here its own rule for products (GemmProduct of
 // Eigen 3.4) hands matrices that stand in memory to one function; precompiled with the headers that all sources share.
 #pragma once
+// A precompiled copy of this header may come from a compiler cache and differ from it in comments; then GCC does not
+// see that "#pragma once" means both, but the macro is defined.
+#ifndef RHEOCYTE_COMPILED_PRODUCTS
+#define RHEOCYTE_COMPILED_PRODUCTS
 #include <Eigen/Core>
 #include <type_traits>
 
@@ -15,10 +19,10 @@ struct MatrixInMemory {
   bool by_rows;
 };
 
-/// c += scale a b, where columns of c are `stride` apart; `anew`: c = scale a b. For double and float.
+/// c += scale a b, where columns of c are `stride` apart; `overwrites`: c = scale a b. For double and float.
 template <class Scalar>
-void multiply(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& b, Scalar scale, bool anew, Scalar* c,
-              Eigen::Index stride);
+void multiply(const MatrixInMemory<Scalar>& a, const MatrixInMemory<Scalar>& b, Scalar scale, bool overwrites,
+              Scalar* c, Eigen::Index stride);
 
 template <class Expression>
 using BlasTraits = Eigen::internal::blas_traits<Expression>;
@@ -67,21 +71,23 @@ struct generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct> {
 
  private:
   template <class Result, class A, class B>
-  static void write(Result& result, const A& a, const B& b, Scalar scale, bool anew) {
+  static void write(Result& result, const A& a, const B& b, Scalar scale, bool overwrites) {
     if constexpr (!rheocyte::is_in_memory<A>) {
-      write(result, typename A::PlainObject(a), b, scale, anew);
+      write(result, typename A::PlainObject(a), b, scale, overwrites);
     } else if constexpr (!rheocyte::is_in_memory<B>) {
-      write(result, a, typename B::PlainObject(b), scale, anew);
+      write(result, a, typename B::PlainObject(b), scale, overwrites);
     } else if constexpr (Result::IsRowMajor || int(Result::InnerStrideAtCompileTime) != 1) {
       Eigen::Matrix<Scalar, Dynamic, Dynamic> product(a.rows(), b.cols());
       write(product, a, b, scale, true);
-      anew ? void(result = product) : void(result += product);
+      overwrites ? void(result = product) : void(result += product);
     } else {
       scale *= blas_traits<A>::extractScalarFactor(a) * blas_traits<B>::extractScalarFactor(b);
-      rheocyte::multiply(rheocyte::in_memory(a), rheocyte::in_memory(b), scale, anew, result.data(),
+      rheocyte::multiply(rheocyte::in_memory(a), rheocyte::in_memory(b), scale, overwrites, result.data(),
                          result.outerStride());
     }
   }
 };
 
 }  // namespace Eigen::internal
+
+#endif
