@@ -181,6 +181,7 @@ PopulationReport analyse(const std::vector<PopulationCondition>& conditions, con
   for (const auto& condition : conditions) all += double(condition.recordings.size());
   for (std::size_t c = 0; c < conditions.size(); ++c)
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
+      watch.go_on();
       const auto& recording = conditions[c].recordings[j];
       const auto read = [&](const TellProgress& report_progress) {
         return read_population_events(recording, options.measuring, measure,

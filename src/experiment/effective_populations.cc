@@ -8,6 +8,7 @@
 #include "case/user_error.h"
 #include "events/plausibility.h"
 #include "experiment/tension_of_setup.h"
+#include "extract/effective_words.h"
 
 namespace rheocyte {
 namespace {
@@ -28,28 +29,11 @@ QuantityEstimate estimate_of(PopulationQuantity quantity, const Median& median, 
           median.common_error / median.value};
 }
 
-std::string beyond_text(const EffectiveCell& cell) {
-  switch (cell.place) {
-    case EffectivePlace::softer:
-      return fmt::format(
-          "the cell with the median area, deformation and inertia ratio is softer than the softest of the table, whose "
-          "effective modulus is {:.3g} kPa.",
-          cell.softest_kPa);
-    case EffectivePlace::longer: return "the median cell is longer than the cells of the table.";
-    case EffectivePlace::stiffer: return "the median cell is stiffer or rounder than the cells of the table.";
-    case EffectivePlace::other_size: return "the median cell has not the size of the cells of the table.";
-    case EffectivePlace::ambiguous:
-      return "cells of different stiffness have the median area, deformation and inertia ratio: the cells are long and "
-             "hardly asymmetric. `rheocyte moduli` takes their outlines.";
-    default: return "the median cell has no modulus.";
-  }
-}
-
 }  // namespace
 
 EffectivePopulations::EffectivePopulations(const PopulationOptions& options)
     : tables_(std::string(), options.section.value_or(Section::square)),
-      given_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {
+      given_(AxialTension::given(options.axial_tension_Pa)) {
   if (!options.by.empty())
     throw UserError(
         fmt::format("rheocyte: --by {} and --model effective contradict each other: the effective modulus follows from "
@@ -78,7 +62,7 @@ void EffectivePopulations::fit(const PopulationEvents& events, RecordingReport& 
   EventFigures figures = figures_of(events);
   r.fitted_events = figures.area_um2.size();
   check_events_of_population(r);
-  const bool has_tension = figures.has_ratios || std::isfinite(given_.error_Pa);
+  const bool has_tension = figures.has_ratios || given_.is_known();
   if (has_tension)
     take_cell(figures, given_, r);
   else
@@ -112,7 +96,7 @@ void EffectivePopulations::take_cell(const EventFigures& figures, const AxialTen
   EffectiveCell& cell = r.effective.emplace(
       effective_cell(tables_.proportioned(), figures, {flow, tables_.section()}, r.pixel_size_um, tension));
   if (!cell.is_found()) {
-    r.failure = beyond_text(cell);
+    r.failure = effective_place_text(cell);
     r.is_beyond = cell.place == EffectivePlace::softer || cell.place == EffectivePlace::longer;
     if (std::isfinite(cell.softest_kPa) && cell.place == EffectivePlace::softer)
       r.bound = {PopulationQuantity::effective_modulus, std::log(cell.softest_kPa)};
@@ -120,8 +104,9 @@ void EffectivePopulations::take_cell(const EventFigures& figures, const AxialTen
   }
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), false, cell);
   r.quantities = {estimate_of(PopulationQuantity::effective_modulus, cell.effective_kPa, cell.spread)};
-  if (std::isinf(tension.error_Pa))
+  if (!tension.is_known())
     r.quantities.push_back(estimate_of(PopulationQuantity::axial_tension, cell.axial_tension_Pa, 0));
+  if (std::string text = by_ratios_text(cell); !text.empty()) r.warnings.push_back(std::move(text));
   r.log_radius = std::log(cell.radius_um);
 }
 

@@ -14,6 +14,8 @@ namespace {
 
 /// Of the scatter about the medians, what lies farther counts as so far: outliers hardly move the correlations.
 constexpr double most_deviations = 3;
+/// Of events that hardly differ, as in a table of rounded numbers.
+constexpr double min_deviation = 1e-4;
 /// Of the variance of a mean, that of a median of normally distributed numbers.
 constexpr double variance_of_median = 1.25 * 1.25;
 
@@ -29,7 +31,7 @@ MeasuredFigure figure_of(std::span<const double> measured, double (*feature)(dou
   std::vector<double> values;
   for (const double value : measured) values.push_back(feature(value));
   const CountedSample<double> sample(values);
-  return {sample.quantile(0.5), robust_deviation(sample), std::move(values)};
+  return {sample.quantile(0.5), std::max(robust_deviation(sample), min_deviation), std::move(values)};
 }
 
 SeenFigure medians_of(const EventFigures& events) {
@@ -52,6 +54,8 @@ SeenFigure medians_of(const EventFigures& events) {
       seen.covariance(Eigen::Index(i), Eigen::Index(k)) =
           variance_of_median * sum / count / count * columns[i].deviation * columns[k].deviation;
     }
+    double& variance = seen.covariance(Eigen::Index(i), Eigen::Index(i));
+    variance = std::max(variance, variance_of_median / count * min_deviation * min_deviation);
   }
   return seen;
 }
@@ -102,6 +106,34 @@ Median ratio_of(double large, double large_error, double small, double small_err
   return {ratio, ratio * std::hypot(large_error / large, small_error / small)};
 }
 
+SeenFigure without_ratio(SeenFigure seen) {
+  seen.value(2) = no_value;
+  return seen;
+}
+
+void add_by_ratios(const ProportionedEstimate& found, EffectiveCell& cell) {
+  cell.by_ratios_kPa = found.by_scatter.effective_modulus_kPa;
+  cell.by_ratios_tension_Pa = found.by_scatter.axial_tension_Pa;
+}
+
+void compare_sizes(const ProportionedCells& law, const EventFigures& events, const Sight& sight, double pixel_size_um,
+                   const AxialTension& tension, EffectiveCell& cell) {
+  const EventFigures small_cells = third_of(events, Third::small), large_cells = third_of(events, Third::large);
+  if (std::min(small_cells.area_um2.size(), large_cells.area_um2.size()) < min_events_of_effective_cell) return;
+  const auto estimate = [&](const EventFigures& third) {
+    const SeenFigure seen = medians_of(third);
+    return law.estimate(cell.is_by_ratios ? seen : without_ratio(seen), sight, pixel_size_um, tension);
+  };
+  const ProportionedEstimate small = estimate(small_cells), large = estimate(large_cells);
+  for (const ProportionedEstimate* third : {&small, &large})
+    if (place_of(law.table(), *third) != EffectivePlace::inside) return;
+  const ModuliEstimate &s = small.by_scatter, &l = large.by_scatter;
+  cell.large_over_small_modulus = ratio_of(l.effective_modulus_kPa, l.effective_modulus_error_kPa,
+                                           s.effective_modulus_kPa, s.effective_modulus_error_kPa);
+  cell.large_over_small_tension =
+      ratio_of(l.axial_tension_Pa, l.axial_tension_error_Pa, s.axial_tension_Pa, s.axial_tension_error_Pa);
+}
+
 /// Of ln of the effective modulus.
 double spread_between(const ProportionedEstimate& found, std::size_t events) {
   const auto variance = [](const ModuliEstimate& e) {
@@ -122,33 +154,16 @@ void EventFigures::take(double event_area_um2, double event_deformation, double 
   inertia_ratio.push_back(event_inertia_ratio);
 }
 
-namespace {
-
-void compare_sizes(const ProportionedCells& law, const EventFigures& events, const Sight& sight, double pixel_size_um,
-                   const AxialTension& tension, EffectiveCell& cell) {
-  const auto estimate = [&](Third which) {
-    return law.estimate(medians_of(third_of(events, which)), sight, pixel_size_um, tension);
-  };
-  const ProportionedEstimate small = estimate(Third::small), large = estimate(Third::large);
-  for (const ProportionedEstimate* third : {&small, &large})
-    if (place_of(law.table(), *third) != EffectivePlace::inside) return;
-  const ModuliEstimate &s = small.by_scatter, &l = large.by_scatter;
-  cell.large_over_small_modulus = ratio_of(l.effective_modulus_kPa, l.effective_modulus_error_kPa,
-                                           s.effective_modulus_kPa, s.effective_modulus_error_kPa);
-  cell.large_over_small_tension =
-      ratio_of(l.axial_tension_Pa, l.axial_tension_error_Pa, s.axial_tension_Pa, s.axial_tension_error_Pa);
-}
-
-}  // namespace
-
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
                              const Sight& sight, double pixel_size_um, const AxialTension& tension) {
   EffectiveCell cell;
   cell.events = events.area_um2.size();
+  cell.section = sight.section;
   if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
-  const SeenFigure seen = medians_of(events);
-  const bool is_known = seen.value.head<2>().allFinite() && seen.covariance.allFinite();
-  if (!is_known || (!events.has_ratios && std::isinf(tension.error_Pa))) return cell;
+  if (!events.has_ratios && !tension.is_known()) return cell;
+  cell.is_by_ratios = !tension.is_known();
+  const SeenFigure by_ratios = medians_of(events);
+  const SeenFigure seen = cell.is_by_ratios ? by_ratios : without_ratio(by_ratios);
   const ProportionedEstimate found = laws.front()->estimate(seen, sight, pixel_size_um, tension);
   cell.place = place_of(laws.front()->table(), found);
   cell.softest_kPa = found.softest_kPa;
@@ -157,8 +172,9 @@ EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, con
   if (!cell.is_found()) return cell;
   add_moduli(found, cell);
   cell.spread = spread_between(found, cell.events);
-  if (cell.events >= 3 * min_events_of_effective_cell)
-    compare_sizes(*laws.front(), events, sight, pixel_size_um, tension, cell);
+  if (!cell.is_by_ratios && events.has_ratios)
+    add_by_ratios(laws.front()->estimate(by_ratios, sight, pixel_size_um), cell);
+  compare_sizes(*laws.front(), events, sight, pixel_size_um, tension, cell);
   if (laws.size() < 2) return cell;
   // Where its table ends first, it is continued; without such a cell NaN.
   const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um, tension).by_scatter;

@@ -27,6 +27,8 @@ enum class EffectivePlace { unknown, inside, softer, longer, stiffer, other_size
 
 struct EffectiveCell {
   std::size_t events = 0;
+  bool is_by_ratios = true;  ///< else by area and deformation, under an axial tension that is given
+  Section section = Section::square;
   EffectivePlace place = EffectivePlace::unknown;
   Median effective_kPa;  ///< modulus of the homogeneous solid that a small axial tension elongates alike
   Median stiffness_kPa;  ///< E + E2D / r0
@@ -37,6 +39,8 @@ struct EffectiveCell {
   double wall_stress_Pa = no_value, viscosity_mPas = no_value;
   double softest_kPa = no_value;     ///< effective modulus at the end of the table, of a softer cell
   double over_other_law = no_value;  ///< the effective modulus over that by the other law of the cortex
+  /// Under a given tension: what the inertia ratios determine in its place, if there are any.
+  double by_ratios_kPa = no_value, by_ratios_tension_Pa = no_value;
   /// Of the median cell of the third of the events with the largest areas over that of the third with the smallest, and
   /// their standard errors by scatter: the model has one axial tension for all sizes.
   Median large_over_small_modulus, large_over_small_tension;
@@ -46,10 +50,10 @@ struct EffectiveCell {
   /// For store/bytes.h.
   template <class Self>
   static auto fields(Self& s) {
-    return std::tie(s.events, s.place, s.effective_kPa, s.stiffness_kPa, s.young_kPa, s.cortex_mN_per_m,
-                    s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa, s.viscosity_mPas,
-                    s.softest_kPa, s.over_other_law, s.large_over_small_modulus, s.large_over_small_tension,
-                    s.events_kPa);
+    return std::tie(s.events, s.is_by_ratios, s.section, s.place, s.effective_kPa, s.stiffness_kPa, s.young_kPa,
+                    s.cortex_mN_per_m, s.tension_mN_per_m, s.axial_tension_Pa, s.radius_um, s.spread, s.wall_stress_Pa,
+                    s.viscosity_mPas, s.softest_kPa, s.over_other_law, s.by_ratios_kPa, s.by_ratios_tension_Pa,
+                    s.large_over_small_modulus, s.large_over_small_tension, s.events_kPa);
   }
 };
 
@@ -57,8 +61,8 @@ struct EffectiveCell {
 inline constexpr std::size_t min_events_of_effective_cell = 20;
 
 /// By cells of one law of the cortex or of two, of which the first counts. Its errors in common are those of pixels,
-/// section and table. Unknown for too few events, without a table, and where neither inertia ratios nor the axial
-/// tension of the liquid are known.
+/// section and table. An axial tension of the liquid that is known takes the place of the inertia ratios. Unknown for
+/// too few events, without a table, and where neither of the two is known.
 EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
                              const Sight& sight, double pixel_size_um,
                              const AxialTension& tension = AxialTension::unknown());

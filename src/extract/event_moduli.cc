@@ -86,7 +86,7 @@ EventModuli::EventModuli(const ExtractSettings& settings, const ModuliOptions& o
               outline_noise_.scaled(table.simulated.width_um / flow_.width_um)),
       moduli_(table.between, table.simulated,
               {features_of(table), has_free_tension(options, table), table.between.tension_ratios().front()}),
-      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()) {}
+      tension_(AxialTension::given(options.axial_tension_Pa)) {}
 
 ModuliEstimate EventModuli::fit(const ShapeVector& seen, double viscosity_mPas) const {
   ChannelFlow flow = flow_;

@@ -31,7 +31,7 @@ Extraction::Extraction(const Recording& recording, const ExtractOptions& options
       events_(recording, options.measuring, {.pixels = pixel_use(options)}),
       table_(tables.used(conditions().flow.exponent)),
       comparison_(table_, tables.other(conditions().flow.exponent)),
-      tension_(options.axial_tension_Pa ? AxialTension{*options.axial_tension_Pa, 0} : AxialTension::unknown()),
+      tension_(AxialTension::given(options.axial_tension_Pa)),
       are_square_(tables.are_square()),
       event_shapes_(recording, conditions(),
                     EventShapes::are_measured(recording) ? shape_tables(tables, conditions().flow.exponent)

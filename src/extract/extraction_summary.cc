@@ -65,7 +65,7 @@ ExtractSummary Extraction::summary() {
   s.shapes.made_of = cells_made_of(events_.facts().made_of, events_.recording().metadata(), tables_, table(),
                                    conditions().flow.exponent);
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
-  s.shapes.is_tension_given = std::isfinite(tension_.error_Pa);
+  s.shapes.is_tension_given = tension_.is_known();
   s.shapes.has_elongated_table = event_shapes_.elongated_by().has_value();
   add_common_errors(s);
   add_soft_ends(s);
@@ -161,7 +161,7 @@ std::string Extraction::settings_hash() const {
     lines.push_back(fmt::format("elongated cells by {}, {}",
                                 event_shapes_.elongated_by() == ElongatedBy::modes ? "outlines" : "inertia ratio",
                                 decisive_line(elongated->solids().origin())));
-  if (std::isfinite(tension_.error_Pa)) lines.push_back(fmt::format("axial tension: {} Pa", tension_.value_Pa));
+  if (tension_.is_known()) lines.push_back(fmt::format("axial tension: {} Pa", tension_.value_Pa));
   return rheocyte::settings_hash(lines);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "extract/effective_words.h"
 #include "extract/recommendation.h"
 #include "extract/shape_words.h"
 
@@ -83,51 +84,28 @@ std::string by_deformation_text(const ShapeVerdict& v) {
   return "Area and deformation alone give no median: too many events are beyond their table.";
 }
 
-/// By what the median cell was found, and why it is one with a cortex.
-struct EffectiveWords {
-  std::string_view data, why;
-};
-EffectiveWords effective_words(const ShapeVerdict& v) {
-  if (v.is_tension_given) return {"area and deformation", "the axial tension of the liquid is given"};
-  return {"area, deformation and inertia ratio", "the cells are longer than the flow alone would make them"};
+std::string_view effective_reason_text(const ShapeVerdict& v) {
+  return v.is_tension_given ? "the axial tension of the liquid is given"
+                            : "the cells are longer than the flow alone would make them";
 }
 
 std::string effective_text(const Recommendation& r, const ShapeVerdict& v) {
   const EffectiveCell& cell = v.effective;
-  const auto [data, why] = effective_words(v);
+  const std::string of_solids =
+      v.has_cortex_shapes() ? "" : "Homogeneous solids, which only outlines can exclude, would have 30 to 55 % more.";
+  std::string comparisons;
+  for (const std::string& sentence : {by_ratios_text(cell), of_solids, by_deformation_text(v)})
+    if (!sentence.empty()) comparisons += " " + sentence;
   return fmt::format(
       "report an effective Young's modulus of {} kPa (cell with the median {} of {} events; errors: statistical; "
       "systematic (pixels, section, proportions and law of the cortex, inertia, cells off the axis in height); "
       "viscosity, "
       "flow rate and pixel size are not included): {}. A homogeneous solid of this modulus is elongated equally by a "
       "small tension. With the proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial "
-      "tension is {} Pa, {:.2g} of the wall shear stress.{} {}",
-      text_with_errors(r.kPa, 3), data, cell.events, why, text_with_errors(cell.stiffness_kPa, 3),
-      text_with_errors(cell.axial_tension_Pa, 3), cell.axial_tension_Pa.value / cell.wall_stress_Pa,
-      v.has_cortex_shapes() ? "" : " Homogeneous solids, which only outlines can exclude, would have 30 to 55 % more.",
-      by_deformation_text(v));
-}
-
-std::string effective_bound_text(const Recommendation& r, const ShapeVerdict& v) {
-  if (std::isfinite(r.bound_kPa))
-    return fmt::format(
-        "no modulus is recommended, only a bound: the cell with the median area, deformation and inertia ratio of {} "
-        "events is softer than the softest cell of its size in the table, whose effective Young's modulus is {:.3g} "
-        "kPa.",
-        v.effective.events, r.bound_kPa);
-  if (v.effective.place == EffectivePlace::ambiguous)
-    return fmt::format(
-        "no modulus is recommended: cells of different stiffness have the median area, deformation and inertia ratio "
-        "of "
-        "these {} events, because they are long and hardly asymmetric. `rheocyte moduli` takes their outlines.",
-        v.effective.events);
-  const std::string_view what = v.effective.place == EffectivePlace::longer       ? "longer than the cells"
-                                : v.effective.place == EffectivePlace::other_size ? "not of the sizes"
-                                                                                  : "stiffer than the cells";
-  return fmt::format(
-      "no modulus is recommended: the cell with the median area, deformation and inertia ratio of {} events is {} of "
-      "the table.",
-      v.effective.events, what);
+      "tension is {} Pa, {:.2g} of the wall shear stress.{}",
+      text_with_errors(r.kPa, 3), effective_data_text(cell), cell.events, effective_reason_text(v),
+      text_with_errors(cell.stiffness_kPa, 3), text_with_errors(cell.axial_tension_Pa, 3),
+      cell.axial_tension_Pa.value / cell.wall_stress_Pa, comparisons);
 }
 
 std::string number_text(const Recommendation& r, const ShapeVerdict& v) {
@@ -204,7 +182,8 @@ std::string recommendation_text(const Recommendation& r, const ShapeVerdict& v) 
   if (r.events.all() == 0 && v.judged == 0) return {};
   if (r.reason == Reason::effective) return effective_text(r, v);
   if (v.has_effective_modulus() && v.effective.place != EffectivePlace::unknown && r.reason != Reason::creeping)
-    return effective_bound_text(r, v);
+    return fmt::format("no modulus is recommended{}: {}", std::isfinite(r.bound_kPa) ? ", only a bound" : "",
+                       effective_place_text(v.effective));
   return r.way == RecommendedWay::none ? none_text(r, v) : number_text(r, v) + maxima_text(r.log_maxima);
 }
 

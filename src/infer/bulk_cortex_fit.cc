@@ -158,7 +158,8 @@ CellCoordinates BulkCortexFit::with_best_stiffness(ModuliMisfit& misfit, const C
   return best;
 }
 
-BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit) const {
+BulkCortexFit::Candidate BulkCortexFit::nearest(ModuliMisfit& misfit, const CellCoordinates* way_begins) const {
+  if (way_begins) return minimum_from(misfit, *way_begins, Fraction::fitted);
   const CellBox& box = table_.box();
   CellCoordinates start = start_for(misfit.shape());
   std::vector<Candidate> minima;
@@ -175,17 +176,17 @@ std::optional<BulkCortexFit::Candidate> BulkCortexFit::nearest(const MeasuredSha
                                                                const CellCoordinates* start) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
-  return start ? minimum_from(in_table, *start, Fraction::fitted) : nearest(in_table);
+  return nearest(in_table, start);
 }
 
-ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow& flow,
-                                  const AxialTension& tension) const {
+ModuliEstimate BulkCortexFit::fit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension,
+                                  const CellCoordinates* start) const {
   ModuliMisfit in_table = misfit(shape, flow, tension);
   if (!in_table.shape().features.allFinite() || !in_table.is_usable()) return {};
   // All cells have the tension in common: no single one moves it, but its error is one of theirs.
-  const bool is_uncertain = tension.error_Pa > 0 && std::isfinite(tension.error_Pa);
+  const bool is_uncertain = tension.error_Pa > 0 && tension.is_known();
   ModuliMisfit at_value = is_uncertain ? misfit(shape, flow, {tension.value_Pa, 0}) : in_table;
-  ModuliEstimate estimate = estimate_of(in_table, nearest(at_value));
+  ModuliEstimate estimate = estimate_of(in_table, nearest(at_value, start));
   const ScaleFactors scale = scale_factors(simulated_, flow);
   const Eigen::Vector3d factor(scale.modulus, scale.cortex_modulus, scale.cortex_modulus);
   estimate.modulus = estimate.modulus.cwiseProduct(factor);

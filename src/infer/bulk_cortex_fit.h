@@ -19,6 +19,9 @@ struct AxialTension {
   double value_Pa = 0;
   double error_Pa = 0;  ///< standard error; infinite: nothing is known, and it is fitted with each cell
   static AxialTension unknown() { return {0, HUGE_VAL}; }
+  /// Exactly, if it is given.
+  static AxialTension given(const std::optional<double>& Pa) { return Pa ? AxialTension{*Pa, 0} : unknown(); }
+  bool is_known() const { return std::isfinite(error_Pa); }
 };
 
 struct MeasuredShape {
@@ -44,7 +47,9 @@ class BulkCortexFit {
  public:
   BulkCortexFit(const CombinedInterpolation& table, const ChannelFlow& simulated, FitOptions options);
 
-  ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension = {}) const;
+  /// Of the cell that fits best of all, or on the way down from a cell.
+  ModuliEstimate fit(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension = {},
+                     const CellCoordinates* start = nullptr) const;
 
   /// A cell of the table, and how far its features are off.
   struct Candidate {
@@ -75,7 +80,7 @@ class BulkCortexFit {
   CellCoordinates start_for(const MeasuredShape& shape) const;
   /// The start at which the features fit best of some whose stiffnesses differ, with the tension that is known.
   static CellCoordinates with_best_stiffness(ModuliMisfit& misfit, const CellCoordinates& start);
-  Candidate nearest(ModuliMisfit& misfit) const;
+  Candidate nearest(ModuliMisfit& misfit, const CellCoordinates* start = nullptr) const;
   Candidate minimum_from(ModuliMisfit& misfit, const CellCoordinates& start, Fraction fraction) const;
   std::vector<Candidate> profile(ModuliMisfit& misfit, const Candidate& best) const;
   Covariance covariance_at(const ModuliMisfit& misfit, const CellCoordinates& cell) const;

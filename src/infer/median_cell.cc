@@ -38,7 +38,7 @@ MedianCell median_cell(const BulkCortexFit& moduli, const SeenCell& cell, const 
   if (e.status == ModuliStatus::no_data) return found;
   found.fitted = array_of(moduli.shape_of(e.cell, cell.flow));
   found.chi_squared = e.chi_squared;
-  found.freedom = e.freedom - (moduli.table().is_elongated() && std::isinf(tension.error_Pa) ? 1 : 0);
+  found.freedom = e.freedom - (moduli.table().is_elongated() && !tension.is_known() ? 1 : 0);
   found.is_at_end = is_at_end(moduli.table(), e.cell);
   // What the model leaves is no noise of the pixels, but it is an error of the numbers.
   const double widening = found.freedom > 0 ? std::sqrt(std::max(found.chi_squared / found.freedom, 1.0)) : 1;

@@ -144,16 +144,36 @@ CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
   return cell;
 }
 
-bool ProportionedCells::has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow,
-                                         const AxialTension& tension, const CellCoordinates& cell) const {
-  const double own = effective_modulus_kPa(cell);
-  return std::ranges::any_of(other_stiffnesses, [&](double factor) {
-    CellCoordinates start = cell;  // under the same tension
+std::vector<BulkCortexFit::Candidate> ProportionedCells::from_other_stiffnesses(const MeasuredShape& shape,
+                                                                                const ChannelFlow& flow,
+                                                                                const AxialTension& tension,
+                                                                                const CellCoordinates& cell) const {
+  std::vector<BulkCortexFit::Candidate> others;
+  for (const double factor : other_stiffnesses) {
+    CellCoordinates start = cell;
     start(x_progress) -= std::log(factor), start(x_axial) /= factor;
     start = start.cwiseMax(between_.box().least).cwiseMin(between_.box().greatest);
     const auto other = fit_.nearest(shape, flow, tension, &start);
-    return other && other->chi_squared < same_chi_squared && between_.is_inside(other->cell) &&
-           std::abs(std::log(effective_modulus_kPa(other->cell) / own)) > same_modulus;
+    if (other && other->chi_squared < same_chi_squared && between_.is_inside(other->cell)) others.push_back(*other);
+  }
+  return others;
+}
+
+std::optional<BulkCortexFit::Candidate> ProportionedCells::nearest(const MeasuredShape& shape, const ChannelFlow& flow,
+                                                                   const AxialTension& tension,
+                                                                   const CellCoordinates* start) const {
+  auto nearest = fit_.nearest(shape, flow, tension, start);
+  if (!nearest || between_.is_inside(nearest->cell)) return nearest;
+  const auto others = from_other_stiffnesses(shape, flow, tension, nearest->cell);
+  if (others.empty()) return nearest;
+  return *std::ranges::min_element(others, {}, &BulkCortexFit::Candidate::chi_squared);
+}
+
+bool ProportionedCells::has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow,
+                                         const AxialTension& tension, const CellCoordinates& cell) const {
+  const double own = effective_modulus_kPa(cell);
+  return std::ranges::any_of(from_other_stiffnesses(shape, flow, tension, cell), [&](const auto& other) {
+    return std::abs(std::log(effective_modulus_kPa(other.cell) / own)) > same_modulus;
   });
 }
 
@@ -161,21 +181,21 @@ ProportionedEstimate ProportionedCells::estimate(SeenFigure seen, const Sight& s
                                                  const AxialTension& tension) const {
   constexpr int rounds = 4;  // the errors hardly depend on the cell
   constexpr double usual_ratio = 0.4;
-  const bool has_ratio = !std::isnan(seen.value(2)) || std::isinf(tension.error_Pa);
+  const bool has_ratio = !std::isnan(seen.value(2)) || !tension.is_known();
   if (!has_ratio) seen = {{seen.value(0), seen.value(1), usual_ratio}, without_ratio(seen.covariance)};
   MeasuredShape shape{first_shape(seen), {}};
   set_figure(seen.covariance, shape.errors);
   std::optional<BulkCortexFit::Candidate> nearest;
   Added errors;
   for (int round = 0; round < rounds; ++round) {
-    nearest = fit_.nearest(shape, sight.flow, tension, nearest ? &nearest->cell : nullptr);
+    nearest = this->nearest(shape, sight.flow, tension, nearest ? &nearest->cell : nullptr);
     if (!nearest) return {};
     errors = added(nearest->cell, sight, pixel_size_um);
     shape.errors.bias = errors.by_square.bias + errors.by_pixels.bias;
   }
   const auto with_errors = [&](const Eigen::Matrix3d& covariance) {
     set_figure(has_ratio ? covariance : without_ratio(covariance), shape.errors);
-    return fit_.fit(shape, sight.flow, tension);
+    return fit_.fit(shape, sight.flow, tension, &nearest->cell);
   };
   const Eigen::Matrix3d of_picture = figure_of(errors.by_pixels);
   Eigen::Matrix3d in_common = left_of_picture * left_of_picture * of_picture + figure_of(errors.by_square);

@@ -3,6 +3,8 @@
 // which hardly depends on the proportions (docs/theory-extract.md, sec. "The effective modulus").
 #pragma once
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "infer/bulk_cortex_fit.h"
 #include "infer/rendered_errors.h"
@@ -21,8 +23,8 @@ struct ProportionedEstimate {
   ModuliEstimate by_scatter;  ///< of the events
   ModuliEstimate in_common;   ///< of all events: by the pixels, the section of the channel and the table
   ModuliEstimate of_picture;  ///< of one event by its pixels
-  /// Whether cells of other stiffness have the same area, deformation and inertia ratio: very long ones, of which the
-  /// deformation says nothing of the asymmetry.
+  /// Whether other cells of the table, of another stiffness, have the same area, deformation and inertia ratio: very
+  /// long ones, of which the deformation does not determine the asymmetry.
   bool is_ambiguous = false;
   /// Of the last cell of the table with this size and axial tension over stiffness, where the cell is a softer one.
   double softest_kPa = no_value;
@@ -56,6 +58,13 @@ class ProportionedCells {
   Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
   /// The cell, or the last one of the table on the way there from a stiffer one.
   CellCoordinates held_inside(CellCoordinates cell) const;
+  /// Where fits from cells of other stiffness end, from the same size and under the same tension.
+  std::vector<BulkCortexFit::Candidate> from_other_stiffnesses(const MeasuredShape& shape, const ChannelFlow& flow,
+                                                               const AxialTension& tension,
+                                                               const CellCoordinates& cell) const;
+  /// The cell that is nearest, but one of the table rather than one beyond it, where the table is only continued.
+  std::optional<BulkCortexFit::Candidate> nearest(const MeasuredShape& shape, const ChannelFlow& flow,
+                                                  const AxialTension& tension, const CellCoordinates* start) const;
   bool has_others_alike(const MeasuredShape& shape, const ChannelFlow& flow, const AxialTension& tension,
                         const CellCoordinates& cell) const;
 

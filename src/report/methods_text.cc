@@ -6,18 +6,26 @@
 #include <cmath>
 
 #include "events/companion_origin.h"
+#include "extract/effective_words.h"
 #include "extract/recommendation.h"
 
 namespace rheocyte {
 namespace {
 
-constexpr std::string_view effective_definition =
-    "The effective Young's modulus is that of the homogeneous solid which a small axial tension elongates as much as "
-    "the cell with its bulk, cortex and cortical tension. Radius, stiffness and, unless it was given, the axial "
-    "tension "
-    "of the liquid were determined from the medians of area, deformation and inertia ratio of the events of each "
-    "recording (cells with a neo-Hookean bulk and cortex in the proportions of HL60 cells, square channel; Young's "
-    "modulus of the bulk, area modulus and tension of the cortex in fixed ratios).";
+std::string effective_law_text(const EffectiveCell& cell) {
+  const std::string unknowns = cell.is_by_ratios
+                                   ? "Radius, stiffness and the axial tension of the liquid were determined"
+                                   : fmt::format(
+                                         "Under an axial tension of the liquid of {:.3g} Pa, radius and "
+                                         "stiffness were determined",
+                                         cell.axial_tension_Pa.value);
+  return fmt::format(
+      "The effective Young's modulus is that of the homogeneous solid which a small axial tension elongates as much as "
+      "the cell with its bulk, cortex and cortical tension. {} from the medians of {} of the events of each recording "
+      "(cells with a neo-Hookean bulk and cortex in the proportions of HL60 cells, {}; Young's modulus of the bulk, "
+      "area modulus and tension of the cortex in fixed ratios).",
+      unknowns, effective_data_text(cell), cell.section == Section::square ? "square channel" : "tube");
+}
 
 /// Channel, liquid, pixels and gates.
 std::string measurement_text(const RecordingFacts& r, double viscosity_mPas) {
@@ -33,7 +41,7 @@ std::string measurement_text(const RecordingFacts& r, double viscosity_mPas) {
 
 std::string law_text(const ExtractSummary& s, const Recommendation& r) {
   switch (r.way) {
-    case RecommendedWay::effective: return std::string(effective_definition);
+    case RecommendedWay::effective: return effective_law_text(s.shapes.effective);
     case RecommendedWay::elongated:
       return "Young's modulus is that of homogeneous neo-Hookean solids in a square channel that are elongated by an "
              "axial "
@@ -66,7 +74,7 @@ std::string methods_text(const PopulationReport& report) {
   std::string text = fmt::format("Moduli were computed with {} (rheocyte population --model {}, settings hash {}).",
                                  program(), report.model, first->settings_hash);
   if (report.model == "effective")
-    text += fmt::format(" {}", effective_definition);
+    text += " " + effective_law_text(first->effective.value());
   else if (report.model == "solid")
     text +=
         " The distribution of radius and Young's modulus of homogeneous neo-Hookean solids in each recording was "

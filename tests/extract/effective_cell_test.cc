@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measurement/shape_in_pixels.h"
+#include "numeric/quantile.h"
 #include "population/comparison.h"
 #include "store/build_info.h"
 
@@ -153,6 +154,7 @@ TEST(EffectiveCellInMemory, AKnownTensionReplacesInertiaRatios) {
   const AxialTension known{by_shapes.axial_tension_Pa.value, 0};
   const EffectiveCell by_tension = effective_cell(laws, events, {flow}, pixel_um, known);
   ASSERT_TRUE(by_tension.is_found());
+  EXPECT_FALSE(by_tension.is_by_ratios);
   EXPECT_NEAR(by_tension.effective_kPa.value / by_shapes.effective_kPa.value, 1, 2e-3);
   EXPECT_NEAR(by_tension.axial_tension_Pa.value, known.value_Pa, 0.01 * known.value_Pa);
   // The error of the tension is part of that of the modulus.
@@ -163,6 +165,29 @@ TEST(EffectiveCellInMemory, AKnownTensionReplacesInertiaRatios) {
   const double change = (under(1.03, 0).value - under(0.97, 0).value) / 0.06 * 0.1;
   EXPECT_NEAR(std::hypot(by_tension.effective_kPa.error, change) / under(1, 0.1).error, 1,
               0.15);  // corrections for pixels and section move with the cell
+}
+
+/// A tension that contradicts the inertia ratios, of which neither is a compromise.
+TEST(EffectiveCellInMemory, AKnownTensionComesBeforeTheInertiaRatios) {
+  const EventFigures whole = seen_events({0.3, 0.2, 0, 200}, 11);
+  EventFigures without = whole;
+  without.has_ratios = false;
+  const std::vector<const ProportionedCells*> laws{&cells()};
+  const AxialTension other{250, 0};
+  const EffectiveCell cell = effective_cell(laws, whole, {flow}, pixel_um, other), by_shapes = effective_of(whole);
+  EXPECT_EQ(cell.effective_kPa.value, effective_cell(laws, without, {flow}, pixel_um, other).effective_kPa.value);
+  EXPECT_EQ(cell.by_ratios_kPa, by_shapes.effective_kPa.value);
+  EXPECT_EQ(cell.by_ratios_tension_Pa, by_shapes.axial_tension_Pa.value);
+}
+
+/// As in a table of binned events.
+TEST(EffectiveCellInMemory, EventsOfOneSizeHaveAModulus) {
+  EventFigures events = seen_events({0.3, 0.2, 0, 200}, 11);
+  const double expected = effective_of(events).effective_kPa.value;
+  std::ranges::fill(events.area_um2, CountedSample<double>(events.area_um2).quantile(0.5));
+  const EffectiveCell cell = effective_of(events);
+  ASSERT_EQ(cell.place, EffectivePlace::inside) << events.area_um2.front();
+  EXPECT_NEAR(cell.effective_kPa.value, expected, 1e-3 * expected);
 }
 
 }  // namespace

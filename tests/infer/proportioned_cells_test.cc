@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "numeric/no_value.h"
 #include "store/build_info.h"
 
 namespace rheocyte::proportioned_cells_test {
@@ -110,6 +111,35 @@ TEST(ProportionedCells, LongCellsWithoutAsymmetryAreAmbiguous) {
   EXPECT_TRUE(cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, 0).is_ambiguous);
   cell(x_axial) = 0.7;
   EXPECT_FALSE(cells_by_current_area().estimate(figure_of(table.at(cell)), {newtonian}, 0).is_ambiguous);
+}
+
+/// Of equal area under one tension, softer cells are more deformed. Beyond its end the table is continued, where cells
+/// of other stiffness have such a deformation again.
+TEST(ProportionedCells, UnderAKnownTensionTheModulusFallsWithTheDeformationToTheEndOfTheTable) {
+  const AxialTension tension{370, 0};
+  for (const double area_um2 : {110.0, 148.0, 170.0}) {
+    double last = HUGE_VAL, last_error = 0;
+    bool has_ended = false;
+    for (int i = 0; i <= 28; ++i) {
+      const double deformation = 0.06 + 0.0025 * i;
+      SeenFigure seen = figure_of(area_um2, deformation, no_value);
+      const auto found =
+          cells_by_current_area().estimate(seen, {cellcarrier(0.12), Section::square}, pixel_um, tension);
+      const bool is_inside = found.by_scatter.status != ModuliStatus::outside_table;
+      EXPECT_FALSE(found.is_ambiguous) << area_um2 << " " << deformation;
+      EXPECT_TRUE(is_inside || deformation > 0.11) << area_um2 << " " << deformation;
+      EXPECT_FALSE(is_inside && has_ended) << area_um2 << " " << deformation;
+      has_ended = !is_inside;
+      if (has_ended) continue;
+      const double modulus = found.by_scatter.effective_modulus_kPa;
+      const double error = found.in_common.effective_modulus_error_kPa / modulus;
+      EXPECT_LT(modulus, 0.98 * last) << area_um2 << " " << deformation;
+      if (last_error == 0) last_error = error;
+      EXPECT_NEAR(std::log(error / last_error), 0, 0.5) << area_um2 << " " << deformation;
+      last = modulus, last_error = error;
+    }
+    EXPECT_TRUE(has_ended);
+  }
 }
 
 TEST(ProportionedCells, PixelsOfTheOutlineAreTakenAway) {
