@@ -113,7 +113,7 @@ struct Honesty {
   std::vector<double> true_over_stated;
 
   /// What the finest state states itself, several times its true error, is at most one and a half times the difference:
-  /// else it does not tell the true error.
+  /// else it does not give the true error.
   void add(const Compared& number) {
     const double error = number.true_error();
     if (error <= fraction_of_rounding * number.size() || number.error_of_finest > 1.5 * error) return;

@@ -1,7 +1,7 @@
 // What nodes and bins change: population_nodes RECORDINGS...
 //
 // Each recording is fitted as `rheocyte population` does it, with 24 nodes for each event and, of more than 20,000, in
-// bins; and with 48 nodes and without bins. Told are the differences in standard errors, and the seconds of both.
+// bins; and with 48 nodes and without bins. Printed are the differences in standard errors, and the seconds of both.
 #include <fmt/format.h>
 
 #include <algorithm>

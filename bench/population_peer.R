@@ -4,9 +4,9 @@
 #
 # MODULI.tsv has the columns experiment, condition (control, drug), session and ln_modulus, a line for each event
 # (bench/populations.py peer writes it). Of each experiment the model ln E ~ condition + (1 + condition | session) is
-# fitted and compared with ln E ~ 1 + (1 + condition | session) by the likelihood ratio; beside it stands the t test of the
-# fixed effect with as many degrees of freedom as there are sessions less one. Told: experiment, difference of ln E, its
-# standard error, p by the likelihood ratio, p by t, seconds.
+# fitted and compared with ln E ~ 1 + (1 + condition | session) by the likelihood ratio, and also by the t test of the
+# fixed effect with as many degrees of freedom as there are sessions less one. Output: experiment, difference of ln E,
+# its standard error, p by the likelihood ratio, p by t, seconds.
 suppressPackageStartupMessages(library(lme4))
 
 arguments <- commandArgs(trailingOnly = TRUE)

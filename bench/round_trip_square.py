@@ -114,7 +114,7 @@ def round_trip(number, options):
 
 
 def as_population(file, options):
-    """Medians with their standard errors, those of table and section included, by name; without the ones that are not told."""
+    """Medians with their standard errors, those of table and section included, by name; without the ones that are not given."""
     folder = options.folder / f"{file.stem}-population"
     subprocess.run([options.program, "population", "--model", "cortex", "--condition", f"cells={file}", "--table", options.table,
                     "-o", folder, "--no-picture", "--quiet"], check=False, capture_output=True)

@@ -32,7 +32,7 @@ function inLetters(bytes) {
 const packed = (content) => inLetters(gzipSync(content, { level: 9 }));
 /** Of numbers the first bytes, the second ones and so on stand together: so they are packed better. */
 const byPlanes = (bytes, size) => Buffer.concat(Array.from({ length: size }, (_, plane) => bytes.filter((_, k) => k % size === plane)));
-/** Bytes of most numbers (docs/tables.md, "Precision"). */
+/** Bytes of most numbers (docs/tables.md, "The grid"). */
 const numberSize = (name) => (name.startsWith('grid_') ? 4 : 8);
 /** Tables that nothing in the page reads: cells on their way are no part of the view. */
 const isLeftOut = (name) => name.startsWith('dynamic_');

@@ -4,7 +4,7 @@
 // places, in pixels of random size. A grid keeps six modes of each cell, which is enough up to a deformation of 0.06;
 // the folder of a table has the contours themselves. Area and deformation of the masks' contours are compared with
 // those of the smooth contour. Prints the coefficients as they stand in the source, and how well they describe the
-// masks of each table. How often the standard errors that follow hold the truth, for cells of other tables too, is told
+// masks of each table. How often the standard errors contain the truth, also for cells of other tables, is reported
 // by pixel_coverage.
 #include <fmt/format.h>
 

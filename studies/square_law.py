@@ -159,7 +159,7 @@ def terms(numbers):
 
 class Law:
     """Of one feature, over c3: least squares, in which cells that are far off count less (Huber 1964), and coefficients that
-    few cells tell are small."""
+    few cells determine are small."""
 
     def __init__(self, numbers, wanted, ridge=0.02):
         rows, wanted = terms(numbers), wanted / numbers[:, 2]

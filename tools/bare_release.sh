@@ -14,7 +14,7 @@ enter_release() {
   mount -t proc proc "$1/proc"
   mount --rbind --make-rslave /dev "$1/dev"
   cp /etc/resolv.conf "$1/etc/"
-  # Behind a proxy that signs anew, the certificates of this machine are needed; in their usual place the package
+  # Behind a proxy that signs again, the certificates of this machine are needed; in their usual place the package
   # ca-certificates would replace them.
   [[ ! -r /etc/ssl/certs/ca-certificates.crt ]] || cp /etc/ssl/certs/ca-certificates.crt "$1$certificates"
 }

@@ -168,7 +168,7 @@ def liquid_element(values, n, re):
 
 
 class SolidElements:
-    """values (e, 15): x, r at six nodes, p at three; residuals likewise."""
+    """values (e, 15): x, r at six nodes, p at three; residuals in the same way."""
 
     def __init__(self, mesh):
         x, r = mesh.nodes[mesh.six, 0], mesh.nodes[mesh.six, 1]

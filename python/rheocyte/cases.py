@@ -103,7 +103,7 @@ class Case:
         replaced = dict(flat_keys({_full_name(name): value for name, value in overrides.items()}))
         if isinstance(source, (str, os.PathLike)):
             file = path(source, "the case")
-            native.CaseValues.from_file(file, list(replaced.items()))  # tells mistakes with their lines
+            native.CaseValues.from_file(file, list(replaced.items()))  # reports mistakes with their lines
             stated = dict(native.stated_in_file(file))
         elif isinstance(source, Case):
             stated = dict(source._stated)

@@ -16,7 +16,7 @@ from rheocyte.vtu import read_vtu
 SIDE_IN, GAP_IN, HEAD_IN, FOOT_IN = 0.06, 0.16, 0.2, 0.64
 ANGLES_DEG = (-34, 17)  # azimuth and elevation of the eye
 LENGTH = 1.5  # half the length of the channel shown, in lesser half widths
-WALL = 0.14  # thickness of the drawn wall, likewise
+WALL = 0.14  # thickness of the drawn wall, in the same unit
 PIXELS, SPACE_STEPS = 560, 20  # of the cell in space, and points along each edge of a face
 WALL_FACE, LIQUID, CELL = "#d3d8dc", "#eef4f8", "#fdf0cf"
 COLOURS = [colours.INK, "#c22f1d", "#2f6fa8"]  # of the silhouettes

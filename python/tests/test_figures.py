@@ -122,7 +122,7 @@ class Command(WithFakeProgram):
             self.assertIn("the same command continues from there", rest.splitlines()[-1])
             self.assertFalse((self.out / "figure-5.png").exists())
         time.sleep(0.6)  # a program that was left running would write now
-        # The log does not tell: a program may be stopped between its line there and its result.
+        # The log does not show this: a program may be stopped between its line there and its result.
         kept = {path.parent.name for path in self.out.glob("cases/*/result.json")}
         every = {path.stem for path in self.out.glob("cases/*.toml")}
         self.assertEqual((len(every), 0 < len(kept) < 12), (12, True))

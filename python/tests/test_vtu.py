@@ -1,4 +1,4 @@
-"""Reading of fields gives back what was written, and damage is told in one sentence."""
+"""Reading of fields gives back what was written, and damage is reported in one sentence."""
 
 import tempfile
 import unittest

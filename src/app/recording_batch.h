@@ -49,7 +49,7 @@ int jobs_at_once(const BatchOptions&);
 /// Threads that are left for each of so many recordings.
 int threads_for_each(const BatchOptions&, std::size_t recordings);
 
-/// The recordings of one call: some are read at once, and told of in their order. See run_batch.
+/// The recordings of one call: some are read at once, and reported in their order. See run_batch.
 template <class Job>
 class RecordingBatch {
  public:

@@ -40,7 +40,7 @@ ProgressCallback progress_lines(const Case& c) {
   };
 }
 
-// What a result of this case will say about it, so that a script can tell whether it has that result already.
+// What a result of this case will say about it, so that a script can see whether it has that result already.
 void print_case(const Case& c) {
   nlohmann::ordered_json json{{"program", "rheocyte"}, {"version", version}};
   json["case"] = to_json(c);

@@ -110,7 +110,7 @@ void warn_about_temperature(ExtractSettings& settings) {
                                           settings.temperature_C, settings.range_text(), settings.model_text()));
 }
 
-// Virtual recordings tell the viscosity itself.
+// Virtual recordings contain the viscosity itself.
 std::optional<double> stored_viscosity(const MeasuringOptions& options, const Recording& recording) {
   const auto medium = options.medium ? options.medium : recording.metadata().text("setup:medium");
   if (options.medium || (medium && medium_of_name(*medium))) return std::nullopt;

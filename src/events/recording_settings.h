@@ -1,6 +1,6 @@
 // The settings of each command that reads recordings, declared once. A new one needs its member in events/options.h,
 // its declaration in events/recording_settings.cc, and the code that uses it; the rest follows
-// (`python -m rheocyte.recordings_stub` makes the type stub anew).
+// (`python -m rheocyte.recordings_stub` makes the type stub again).
 #pragma once
 #include "events/options.h"
 #include "events/setting.h"

@@ -36,7 +36,7 @@ double given(const std::string& text, const char* option) {
   return value;
 }
 
-/// What the feature temp tells.
+/// The temperatures in the feature temp.
 struct OfEvents {
   double median = no_value;    ///< of the possible ones
   double example = median;     ///< one that is a number and impossible

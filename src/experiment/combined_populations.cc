@@ -14,7 +14,7 @@ namespace rheocyte {
 namespace {
 
 constexpr int mode_2 = int(ShapeFeature::first_mode), last_fitted_mode = 7;
-/// A fraction of the cortex nearer to 0 or 1 than so many of its spreads tells no modulus of the smaller part.
+/// A fraction of the cortex nearer to 0 or 1 than so many of its spreads gives no modulus of the smaller part.
 constexpr double least_spreads_from_end = 2, most_relative_error = 0.25;
 
 ModuliOptions moduli_options(const PopulationOptions& options) {
@@ -40,7 +40,7 @@ MeasuredCell cell_of(const PopulationEvents& events, std::size_t i) {
 struct QuantityOfLaw {
   PopulationQuantity quantity;
   double CombinedLogs::*log;
-  bool is_of_parts;  ///< not known where bulk and cortex are not told apart
+  bool is_of_parts;  ///< not known if bulk and cortex cannot be separated
 };
 constexpr std::array quantities_of_law{
     QuantityOfLaw{PopulationQuantity::stiffness, &CombinedLogs::stiffness, false},
@@ -72,7 +72,7 @@ double most_residual(int feature) {
   }
 }
 
-/// Why bulk and cortex are not told apart; empty if they are.
+/// Why bulk and cortex cannot be separated; empty if they are.
 std::string not_told_apart(const CombinedPopulation& found) {
   const double fraction = found.law.mean(2), spread = found.law.spread(2);
   for (const auto& [from_end, end] : {std::pair(fraction, "no cortex"), std::pair(1 - fraction, "cortex alone")})

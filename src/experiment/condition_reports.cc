@@ -28,7 +28,7 @@ struct ConditionRecordings {
   }
 };
 
-/// A quantity in recordings; empty if one of them does not tell it.
+/// A quantity in recordings; empty if one of them does not have it.
 std::vector<QuantityEstimate> estimates_of(const RecordingReports& recordings, PopulationQuantity quantity) {
   std::vector<QuantityEstimate> estimates;
   for (const RecordingReport* r : recordings) {
@@ -54,7 +54,7 @@ void tell_mean(const std::vector<RecordingMean>& means, double level, ConditionQ
   told.log_mean = {d.value, has_scatter ? d.lower : d.sampling_lower, has_scatter ? d.upper : d.sampling_upper};
 }
 
-/// Recordings at several flow rates tell how a modulus grows with the stress; they scatter about a line then.
+/// Recordings at several flow rates show how a modulus grows with the stress; they scatter about a line then.
 void tell_stiffening(const std::vector<RecordingMean>& means, const std::vector<double>& log_stresses, double level,
                      ConditionQuantity& told) {
   std::vector<MeanAtStress> at_stress;

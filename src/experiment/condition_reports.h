@@ -9,7 +9,7 @@
 namespace rheocyte {
 
 /// Of each condition, by those of its recordings that have numbers. A recording that could not be fitted is left out by
-/// name; one whose cells lie beyond what can be told leaves its condition without numbers, because the rest is
+/// name; one whose cells lie beyond the table leaves its condition without numbers, because the rest is
 /// selected.
 std::vector<ConditionReport> condition_reports(const std::vector<RecordingReport>& recordings,
                                                const std::vector<PopulationCondition>& conditions, double level);
@@ -22,7 +22,7 @@ struct ComparisonRules {
 std::vector<ConditionComparison> comparisons_of(const std::vector<RecordingReport>& recordings, std::size_t conditions,
                                                 const ComparisonRules& rules);
 
-/// Of any recording, in the order in which a model tells them.
+/// Of any recording, in the order in which a model gives them.
 std::vector<PopulationQuantity> quantities_told(const std::vector<RecordingReport>& recordings);
 
 }  // namespace rheocyte

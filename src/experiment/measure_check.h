@@ -32,7 +32,7 @@ struct MeasureCheck {
   bool fits_together = true;                                    ///< all events
   bool fits = true;                                             ///< also those of each third
 };
-/// Fractions at which the quantiles are told.
+/// Fractions at which the quantiles are given.
 std::vector<double> check_places();
 /// How much a measure may be off.
 enum class MeasureRule {

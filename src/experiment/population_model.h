@@ -1,4 +1,4 @@
-// Of what cells the populations of recordings are: each model tells of one recording what it can, in the same numbers.
+// Of what cells the populations of recordings are: each model reports what it can, in the same numbers.
 #pragma once
 #include <functional>
 #include <memory>
@@ -35,10 +35,10 @@ std::unique_ptr<PopulationModel> population_model(const PopulationOptions& optio
 /// UserError below the events that a population needs.
 void check_events_of_population(const RecordingReport& report);
 
-/// Where the table lacks many, the population is told by the shape of the rest: a warning.
+/// Where the table lacks many, the population is determined by the shape of the rest: a warning.
 void tell_beyond(RecordingReport& report);
 
-/// Where most events lie on one side of the table the others are a tail, which tells nothing of the rest: no numbers.
+/// If most events lie on one side of the table the others are a tail, which does not describe the rest: no numbers.
 /// `log_bound`: below it ln of the median of the quantity is known to lie, if it is.
 void refuse_most_beyond(PopulationQuantity quantity, const std::optional<double>& log_bound, RecordingReport& report);
 

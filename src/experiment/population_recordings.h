@@ -48,7 +48,7 @@ struct ConditionReport {
   std::vector<std::filesystem::path> left_out;  ///< recordings that could not be fitted
   std::filesystem::path without_numbers_by;     ///< the recording beyond the table for which there are none
   std::size_t seen_events() const { return events + beyond.all() - continued_events; }
-  std::vector<ConditionQuantity> quantities;               ///< those that all its recordings tell
+  std::vector<ConditionQuantity> quantities;               ///< those that all its recordings give
   double log_radius = no_value, radius_spread = no_value;  ///< means over the recordings
   double elongation = no_value;                            ///< mean of the recordings' medians
   double wall_stress_Pa = no_value;  ///< geometric mean of theirs, at which means with a stiffening hold
@@ -85,7 +85,7 @@ struct PopulationReport {
   std::vector<std::string> warnings;
 
   bool has_failures() const;
-  /// Of any recording, in the order in which the model tells them.
+  /// Of any recording, in the order in which the model gives them.
   std::vector<PopulationQuantity> quantities() const;
 };
 

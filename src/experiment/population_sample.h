@@ -32,7 +32,7 @@ struct PopulationSample {
 
 PopulationSample population_sample(const PopulationEvents& events, PopulationMaps& maps, const SampleOptions& options);
 
-/// The measure that tells the stiffness, and the one that tells the elongation.
+/// The measure that gives the stiffness, and the one that gives the elongation.
 const std::vector<double>& stiffness_measure(const PopulationEvents& events, StiffnessMeasure by);
 const std::vector<double>& elongation_measure(const PopulationEvents& events, StiffnessMeasure by);
 

@@ -58,7 +58,7 @@ struct CombinedReport {
   Section section = Section::square;
   double wall_stress_Pa = 0;
   std::size_t strangers = 0;
-  std::string not_told;  ///< why bulk and cortex are not told apart, in words; empty if they are
+  std::string not_told;  ///< why bulk and cortex cannot be separated, in words; empty if they are
 };
 
 /// One recording; its events stay outside.
@@ -71,7 +71,7 @@ struct RecordingReport : RecordingFacts {
   EventsBeyond beyond;               ///< the cells of the table
   std::size_t continued_events = 0;  ///< of these: fitted nevertheless, because the table goes straight on to them
   bool is_binned = false;
-  std::vector<QuantityEstimate> quantities;  ///< the first one is what the model tells best
+  std::vector<QuantityEstimate> quantities;  ///< the first one is the one that the model knows best
   double log_radius = no_value, radius_spread = no_value;
   std::array<Median, seen_measures> observed = {};   ///< medians of what is measured, NaN of what is not
   CensoredMedian by_deformation_kPa, elongated_kPa;  ///< E of solids, by `rheocyte extract`

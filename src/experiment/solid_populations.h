@@ -1,4 +1,4 @@
-// Populations of elastic solids, whose stiffness one measure tells (docs/theory-populations.md, sec. "Model").
+// Populations of elastic solids, whose stiffness one measure gives (docs/theory-populations.md, sec. "Model").
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace rheocyte {
 
-/// What is told of the fitted cells of a recording.
+/// The numbers of the fitted cells of a recording.
 void tell_quantities(RecordingReport& r);
 
 class SolidPopulations : public PopulationModel {

@@ -119,7 +119,7 @@ struct Window {
   double low, high;
 };
 
-/// Where the integrand is not negligible, as far as some points tell.
+/// Where the integrand is not negligible, as far as some points show.
 Window narrowed(AreaCurve& curve, const CellDistribution& cells, Window window) {
   NodeTable nodes(coarse_points, int(NodeNumber::count));
   const double step = (window.high - window.low) / (coarse_points - 1);

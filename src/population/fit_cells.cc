@@ -17,12 +17,12 @@ constexpr double least_radius_spread = 0.003, greatest_radius_spread = 1, least_
                  greatest_modulus_spread = 1.5, greatest_artanh = 2.5;
 /// Of the mean of ln r0 and ln E, by a standard deviation of the elongation.
 constexpr double steepest = 1;
-/// Nodes are placed anew until the cells move less than this fraction of their spreads: far less than the nodes reach.
+/// Nodes are placed again until the cells move less than this fraction of their spreads: far less than the nodes reach.
 constexpr double settled_fraction = 0.05;
 constexpr int most_placings = 6;
 /// Where gates keep less the likelihood has no parabola.
 constexpr double parabolic_kept = 0.3;
-/// A spread below this fraction of what a single image tells is not known by the parabola.
+/// A spread below this fraction of a single image's error is not known by the parabola.
 constexpr double least_fraction_of_error = 0.5;
 constexpr int profile_steps = 6;
 constexpr double profile_tolerance = 0.01;  ///< in standard errors

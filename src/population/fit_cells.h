@@ -8,7 +8,7 @@
 
 namespace rheocyte {
 
-/// Gates that keep less of the cells tell of a tail alone.
+/// Gates that keep less of the cells leave only a tail.
 inline constexpr double least_kept_fraction = 0.05;
 
 enum class FitState {
@@ -16,7 +16,7 @@ enum class FitState {
   too_stiff,  ///< the median measure is below its noise: there is a lower limit alone
   tail,       ///< nearly all cells would fail the gates
   not_found,  ///< no maximum was found
-  singular    ///< the events do not tell all parameters
+  singular    ///< the events do not determine all parameters
 };
 
 struct FitSettings {

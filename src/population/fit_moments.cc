@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr int most_steps_of_turn = 40, most_moment_newton_steps = 10;
 /// In standard errors: nearer to the end Newton's method is tried.
 constexpr double most_distance_of_newton = 20;
-/// Steps below this fraction of a standard error change nothing that is told.
+/// Steps below this fraction of a standard error change nothing that is reported.
 constexpr double moment_tolerance = 0.03;
 constexpr double first_damping = 1e-3, greatest_damping = 1e8;
 
@@ -163,7 +163,7 @@ class MomentSearch {
     MatrixXd matrix;  ///< minus its slopes by the parameters
   };
 
-  /// Means that are held at a bound are told as little as the others: the bound is the model's, not the cells'. Equal
+  /// Means that are fixed at a bound have errors like the others: the bound is the model's, not the cells'. Equal
   /// bounds are what is known of them.
   Equations equations(Held held = Held::without) {
     settings_.watch.go_on();
@@ -197,7 +197,7 @@ class MomentSearch {
     }
   }
 
-  /// Of the end, in standard errors of the parameters as far as one event's information tells them.
+  /// Of the end, in standard errors of the parameters as far as one event's information determines them.
   double distance(const Equations& e) const {
     const VectorXd step = solve_dense(e.matrix, e.value);
     const VectorXd error = (dense_inverse(e.matrix).diagonal().cwiseAbs() / double(found_.events)).cwiseSqrt();

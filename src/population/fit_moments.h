@@ -1,4 +1,4 @@
-// Cells of several numbers each: their law is told by mean and covariance of what is measured of the events of a
+// Cells of several numbers each: their law is determined by mean and covariance of what is measured of the events of a
 // recording (docs/theory-populations.md, eq:moments).
 #pragma once
 #include <Eigen/Core>

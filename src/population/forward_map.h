@@ -4,7 +4,7 @@
 
 namespace rheocyte {
 
-/// Mean measured values of a cell with their slopes and the covariance of their noise. The measure is what tells the
+/// Mean measured values of a cell with their slopes and the covariance of their noise. The measure determines the
 /// stiffness: it falls as the cell gets stiffer.
 struct MapPoint {
   double log_area = 0, measure = 0;                      ///< ln(um^2)

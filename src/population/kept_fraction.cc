@@ -94,7 +94,7 @@ KeptFraction::RowSums KeptFraction::sums_of(const Row& row, const CellDistributi
   for (const Stretch& stretch : stretches_) {
     const std::size_t begin = std::max(first, stretch.begin), end = std::min(last, stretch.end);
     if (begin >= end) continue;
-    // Along places of equal distance a normal density is told by two factors.
+    // Along places of equal distance a normal density follows from two factors.
     const double step = stretch.step / conditional, shrinking = std::exp(-step * step);
     double t = (heights_[begin] - middle) / conditional;
     double density = std::exp(-0.5 * t * t) * stretch.step, factor = std::exp(-step * (t + step / 2));

@@ -9,7 +9,7 @@
 namespace rheocyte {
 namespace {
 
-/// Sums are made within blocks of events and then over the blocks in their order, whoever has computed them.
+/// Sums are made within blocks of events and then over the blocks in their order, whichever thread has computed them.
 constexpr std::size_t events_per_block = 128;
 
 /// work(0) .. work(count - 1), each once.

@@ -19,13 +19,13 @@ struct LikelihoodMaximum {
 using HeldParameters = std::array<bool, law_parameters>;
 
 /// From a start within the bounds, until the next step would gain less than 1e-7 in ln L. Far from the maximum the
-/// events' scores tell the curvature, near it the observed information, which is kept in `information` as long as its
+/// events' scores give the curvature, near it the observed information, which is kept in `information` as long as its
 /// steps lead on: it may be that of an earlier search nearby.
 LikelihoodMaximum maximise(const PopulationLikelihood& likelihood, const LawVector& start,
                            const ParameterBounds& bounds, const HeldParameters& held,
                            std::optional<LawMatrix>& information);
 
-/// Steps for differences: a tenth of a standard error each, as far as the events' scores tell it.
+/// Steps for differences: a tenth of a standard error each, as far as the events' scores give it.
 LawVector difference_steps(const LawMatrix& products);
 
 }  // namespace rheocyte

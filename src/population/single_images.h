@@ -24,8 +24,8 @@ struct SingleImages {
   std::vector<double> counts = {};
   double without = 0;  ///< events without a modulus there
 };
-/// Over some standard deviations of the fitted cells and of the error of ln E by one image. Of very many events some
-/// tell it, which are spread evenly over all.
+/// Over some standard deviations of the fitted cells and of the error of ln E by one image. With very many events some
+/// determine it, which are spread evenly over all.
 SingleImages single_images(const Sample& sample, const CellDistribution& cells, double image_error);
 
 }  // namespace rheocyte

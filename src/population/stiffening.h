@@ -24,7 +24,7 @@ struct Stiffening {
 
 /// How many stresses there are that differ by more than their own scatter: by 5 %.
 int distinct_stresses(std::span<const MeanAtStress> means);
-/// With fewer stresses nothing tells a power from any other law.
+/// With fewer stresses nothing distinguishes a power from any other law.
 inline constexpr int fewest_stresses_of_a_power = 3;
 
 /// The straight line of least squares. At least fewest_stresses_of_a_power stresses that differ (asserted).

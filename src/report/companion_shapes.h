@@ -10,7 +10,7 @@ namespace rheocyte {
 
 class CompanionShapes {
  public:
-  /// Adds what the recording stores, or what its contours or masks tell where these are read for the moduli anyway. All
+  /// Adds what the recording stores, or what its contours or masks give if these are read for the moduli anyway. All
   /// must outlive the object.
   CompanionShapes(CompanionWriter& companion, const Recording& recording, Extraction& extraction);
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t outlines_per_block = 4096;
 
-/// What the outlines of a block of events tell.
+/// The features from the outlines of a block of events.
 struct OutlineBlock {
   std::span<const ContourFeatures> features;
   std::span<const OutlineTilt> tilt;
@@ -42,7 +42,7 @@ ColumnsOf<OutlineBlock> outline_columns() {
   return columns;
 }
 
-/// Reads the outlines of events, and what they tell.
+/// Reads the outlines of events, and gives their features.
 class OutlineReader {
  public:
   OutlineReader(const Recording& recording, double pixel_size_um)

@@ -18,7 +18,7 @@ class FewAtOnce {
   /// One of them, as long as it lives.
   using Turn = std::unique_ptr<std::atomic<int>, Leave>;
 
-  /// `sentence` tells that there are so many already.
+  /// `sentence` states that there are so many already.
   FewAtOnce(int most, std::string sentence) : most_(most), sentence_(std::move(sentence)) {}
 
   /// For all threads. Refused (503).

@@ -8,7 +8,7 @@ namespace rheocyte {
 using SystemSocket = std::intptr_t;
 
 /// Whether the other end belongs to the user who runs this program, on this machine. False also where the system does
-/// not tell (/proc/net).
+/// not show it (/proc/net).
 bool peer_is_own_user(SystemSocket);
 
 /// Whether the other end has closed the connection, or its direction to us.

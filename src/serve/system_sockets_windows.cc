@@ -20,7 +20,7 @@ struct CloseHandles {
 };
 using Handle = std::unique_ptr<void, CloseHandles>;
 
-/// The user for whom a process runs, as bytes that are the same for one user; empty if that is not told.
+/// The user for whom a process runs, as bytes that are the same for one user; empty if that is not known.
 std::vector<unsigned char> user_of(DWORD process) {
   const Handle opened(::OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, process));
   HANDLE token = nullptr;

@@ -26,7 +26,7 @@ BdfFormula bdf_formula(std::span<const double> past, int order, double time);
 /// Weights of past values, one for each of the given times, in the polynomial through them, at `time`.
 Eigen::VectorXd extrapolation_weights(std::span<const double> past, double time);
 
-/// What the last step tells about the next: local errors, relative to the tolerance, at the order below (0), at the
+/// What the last step shows about the next: local errors, relative to the tolerance, at the order below (0), at the
 /// order of the step (1) and above (2); negative: not known.
 struct StepErrors {
   double below = -1, same = -1, above = -1;

@@ -41,7 +41,7 @@ double estimate_error(const std::vector<double>& deformations, const ErrorRule& 
 
 /// Errors of smaller deformations are relative to this one. On the axis no deformation is resolved below
 /// deformation_round_off. Off the axis less is asked: there a stiff cell's deformation is of second order, and far
-/// below what a recording tells from that of a sphere (docs/theory-square.md, sec. 6).
+/// below what a recording distinguishes from a sphere (docs/theory-square.md, sec. 6).
 double deformation_floor(const Problem&);
 
 /// A state at the resolutions of one mesh, coarse to fine; where the gap is narrow, of several.

@@ -1,4 +1,4 @@
-// What each step of a run in time leaves behind, as the run itself tells (docs/theory-time.md, eq:local-error).
+// What each step of a run in time leaves as an error, by the run itself (docs/theory-time.md, eq:local-error).
 #pragma once
 #include <vector>
 

@@ -12,7 +12,7 @@ namespace {
 /// Of the changes' linear systems, relative to their right-hand sides.
 constexpr double wanted_residual = 1e-6;
 constexpr int max_refinements = 3;
-/// Greatest change of an unknown for these systems. With smaller ones rounding tells in the forces of bending, with
+/// Greatest change of an unknown for these systems. With smaller ones rounding shows in the forces of bending, with
 /// larger ones that they are not linear.
 constexpr double small_change = 2e-4;
 

@@ -62,7 +62,7 @@ std::string ways_out(const LastState& last) {
          "(cell.cortex.law = \"neo-hookean\").";
 }
 
-/// In requested moduli; near 1 as many digits as tell the difference.
+/// In requested moduli; near 1 as many digits as show the difference.
 std::string in_wanted_moduli(double ratio) {
   constexpr double told_by_four_digits = 1e-3;
   if (ratio == 1) return "the requested moduli";

@@ -49,7 +49,7 @@ using IsolatedWork = std::function<std::string(const TellProgress&)>;
 /// As run_isolated; `text` of work that has finished is what it returned. SystemLimit if the system gives no process.
 IsolatedEnd run_isolated_bytes(const IsolatedWork& work, const Isolation& limits, const Watch& watch);
 
-/// Several works, each as by run_isolated_bytes, some at once; what they tell and how they ended is reported in the
+/// Several works, each as by run_isolated_bytes, some at once; what they report and how they ended is reported in the
 /// caller's thread, while it starts the next one or waits. Where there are no processes, one after another.
 class IsolatedPool {
  public:
@@ -85,7 +85,7 @@ Isolated<Result> isolated_from(IsolatedEnd end) {
   return isolated;
 }
 
-/// Forks, runs `work` in the child, where it may tell its progress, and returns what became of it; the result comes
+/// Forks, runs `work` in the child, where it may report its progress, and returns what became of it; the result comes
 /// back as bytes (store/bytes.h). The child prints nothing; it does not see SIGINT, SIGTERM and SIGHUP and is killed
 /// when the parent has got one, or when the watch, which is asked in the parent, wants that. Of several threads only
 /// the one that calls is there in the child: the work must not need what others may hold, such as an interpreter's

@@ -114,7 +114,7 @@ int bring_to_disk(const fs::path& path) {
   return ::FlushFileBuffers(opened.get()) ? 0 : last_error();
 }
 
-/// Rights are lists of whom they are given to: trying tells.
+/// Rights are lists of whom they are given to: trying shows it.
 int check_writable(const fs::path& folder) {
   const Scratch tried = new_scratch_file(folder / "rheocyte");
   remove_scratch(tried);

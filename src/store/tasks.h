@@ -11,7 +11,7 @@ namespace rheocyte {
 
 class Tasks {
  public:
-  /// Is told which thread does it, from 0 on; may add others. It must not wait for another task.
+  /// Gets the number of the thread that does it, from 0 on; may add others. It must not wait for another task.
   using Task = std::function<void(int thread)>;
 
   /// Of the tasks at hand those of the lowest rank are done first, and of these the one that was added first.

@@ -12,7 +12,7 @@ struct Watch {
   TellProgress progress = [](double) {};              ///< what it throws ends the work and comes through
   std::function<bool()> stop = [] { return false; };  ///< asked several times a second
 
-  std::function<void()> alive = [] {};  ///< told at each step, for those who take silence for a hang
+  std::function<void()> alive = [] {};  ///< called at each step, for those who take silence for a hang
 
   /// For work to call from step to step: StoppedBySignal once its end is requested.
   void go_on() const {

@@ -115,7 +115,7 @@ int take_descriptor(int socket) {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   try {
     if (prepare) prepare();
-  } catch (const std::exception&) {  // each piece of work will meet the reason again and tell it
+  } catch (const std::exception&) {  // each piece of work will meet the reason again and report it
   }
   for (;;) {
     const int socket = take_descriptor(control);

@@ -4,7 +4,7 @@
 
 namespace rheocyte {
 
-/// What a sample of a branch tells of the number by which the branch is sampled.
+/// What a sample of a branch shows of the number by which the branch is sampled.
 struct SamplePoint {
   double place = 0;  ///< ln(compliance)
   double value = 0;  ///< ln(number)

@@ -27,7 +27,7 @@ std::string_view noun_of_missing(const VirtualRecording&);
 /// By what the cells of a virtual recording are elongated; nothing if by the flow alone, or if it is not virtual.
 std::optional<Elongation> elongation_of_cells(const Metadata&);
 
-/// What else the file tells.
+/// What else the file contains.
 struct RecordingProvenance {
   std::string program;  ///< name and version
   std::string spec;     ///< the text of the spec, for the log

@@ -53,7 +53,7 @@ class AxisPolynomials {
     int count_ = 0;
   };
 
-  /// Weights of the nodes. `part_of` tells how much one that is not next to the cell counts, from 0 to 1; what it
+  /// Weights of the nodes. `part_of` gives how much one that is not next to the cell counts, from 0 to 1; what it
   /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part.
   template <class Part>
   Weights weights(const Part& part_of) const {

@@ -187,7 +187,7 @@ EventInspector::EventInspector(const InspectedRecording& file, const ExtractOpti
   if (!file.combined || !outlines_) return;
   try {
     combined_ = std::make_unique<CombinedCells>(recording_, options.measuring, *file.combined);
-  } catch (const UserError&) {  // what is missing for several moduli is missing for one, and told there
+  } catch (const UserError&) {  // what is missing for several moduli is missing for one, and reported there
   }
 }
 

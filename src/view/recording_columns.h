@@ -23,7 +23,7 @@ struct ComputedColumn {
 /// recording. "emodulus" is the computed one alone.
 inline constexpr std::string_view stored_modulus_name = "emodulus_stored";
 
-/// Of a companion: emodulus, and what its metadata tells of userdef0 to userdef9 (report/event_columns.h).
+/// Of a companion: emodulus, and what its metadata state about userdef0 to userdef9 (report/event_columns.h).
 std::vector<ComputedColumn> computed_columns(const Recording& companion);
 
 /// All that can be computed here, by the names of features.

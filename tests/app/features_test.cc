@@ -70,7 +70,7 @@ TEST_F(Features, ARectangleHasThoseOfARectangle) {
 }
 
 TEST_F(Features, HowAnOutlineLiesToTheFlowIsToldWhereItIsWhole) {
-  // A sheared rectangle: its flanks rise by one pixel in three; the second one touches the border, which is told, and
+  // A sheared rectangle: its flanks rise by one pixel in three; the second touches the border, which is reported, and
   // has no features.
   constexpr hsize_t height = 40, width = 60;
   std::vector<std::uint8_t> masks(2 * height * width, 0);

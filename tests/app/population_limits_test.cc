@@ -1,4 +1,4 @@
-// What `rheocyte population` says of recordings that tell less than a population: cells beyond the table, features that
+// `rheocyte population` with recordings that contain less than a population: cells beyond the table, features that
 // are missing, set-ups that differ.
 #include "measurement/recording_writer.h"
 #include "numeric/cell_random.h"
@@ -76,7 +76,7 @@ TEST_F(PopulationCommand, AreaAndDeformationAloneDoForCellsThatNothingElseElonga
   const auto recording = record()["recordings"][0];
   EXPECT_TRUE(recording["elongation_median"].is_null());
   EXPECT_EQ(recording["checks"].size(), 2) << "area and deformation";
-  // Another table, event by event, tells about the same: four standard errors, and 2 % between the tables.
+  // Another table, event by event, gives about the same: four standard errors, and 2 % between the tables.
   const Ended by_events = call({"extract", "two.rtdc"});
   const std::string told = "events, E median ";
   const auto at = by_events.out.find(told);

@@ -62,7 +62,7 @@ TEST_F(InTime, WritesEveryFile) {
 
 TEST_F(InTime, TheEndIsComparedWithTheStationaryShape) {
   // Early it has not settled and its error is that of its steps and its mesh, from coarser ones; at last the distance
-  // is the error of the mesh, which is told.
+  // is the error of the mesh, which is stated.
   ASSERT_EQ(run(solve("early", {"--set", "time.end_us=20"})).exit_code, 0);
   ASSERT_EQ(run(solve("late", {"--set", "time.end_us=1500"})).exit_code, 0);
   const auto early = nlohmann::json::parse(text("early/result.json")),
@@ -182,7 +182,7 @@ TEST_F(InTime, ARestartContinuesToTheBit) {
 }
 
 TEST_F(InTime, AKilledRunGoesOnFromItsHiddenFolder) {
-  // kill -9 after the first step is told: its checkpoint is found by the name of the result, and what goes on from
+  // kill -9 after the first step is reported: its checkpoint is found by the name of the result, and what goes on from
   // there equals the undisturbed run byte by byte. Once the result is there, nothing hidden is left.
   ASSERT_EQ(run(solve("undisturbed", {"--set", "time.end_us=60"})).exit_code, 0);
   auto command = solve("killed", {"--set", "time.end_us=60"});
@@ -290,7 +290,7 @@ TEST_F(InTime, ARunThatStopsTellsThatTheCellHasNoStationaryShape) {
 }
 
 TEST_F(InTime, ACellThatWillNotSettleIsConvergedWhereItIs) {
-  // The same cell after 20 us: its shape there is right, and it is told that it goes on changing.
+  // The same cell after 20 us: its shape there is right, and the message states that it goes on changing.
   const auto ended = run(solve("soft", {"--set", "cell.bulk.young_modulus_kPa=1", "--set", "time.end_us=20"}));
   const auto numbers = nlohmann::json::parse(text("soft/result.json"));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -319,7 +319,7 @@ TEST_F(InTime, AnotherCaseStartsFromALastState) {
 }
 
 TEST_F(InTime, InASquareACaseStartsFromALastStateInTheSameDuct) {
-  // Inertia is left out, which is told. As in the tube: d at 100 + 50 us is that of one run within the accuracy of the
+  // No inertia, as a message states. As in the tube: d at 100 + 50 us is that of one run within the accuracy of the
   // steps, the cell's place begins at 0, with ten times less flow the cell relaxes. Another width is refused, and a
   // tube.
   write_file(folder_.path() / "square.toml", R"([channel]

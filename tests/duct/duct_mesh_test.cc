@@ -77,7 +77,7 @@ TEST(DuctMesh, ALongDuctEndsWithOneElementMore) {
 }
 
 TEST(DuctMesh, ItGoesOnBeyondTheDuctThatIsToldOf) {
-  // By the run-out, with a plane between elements where the duct ends that is told of.
+  // By the run-out, with a plane between elements where the reported duct ends.
   const DuctGeometry geometry({.radius = 0.5, .length = 14, .run_out = 2.5});
   EXPECT_EQ(geometry.half_length(), 7);
   EXPECT_EQ(geometry.end(), 9.5);

@@ -1,4 +1,4 @@
-// Who watches the analysis of populations is told how far it is, and ends it at once.
+// A watch of the analysis of populations gets how far it is, and ends it at once.
 #include "experiment/analyse_populations.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Populations of cells with a cortex: what is told where some or most of them are softer than those of the table.
+// Populations of cells with a cortex: what is reported if some or most of them are softer than those of the table.
 #include "experiment/combined_populations.h"
 
 #include <gtest/gtest.h>

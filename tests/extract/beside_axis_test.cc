@@ -49,7 +49,7 @@ BesideAxis found(const Experiment& e, std::uint64_t seed = 1) {
 }
 
 TEST(BesideAxis, SlopesAndCentringOfSimulatedExperimentsAreWithoutBiasAndTheirErrorsHold) {
-  // 95 % of the intervals of two errors; 400 experiments tell 1.1 %.
+  // 95 % of the intervals of two errors; 400 experiments resolve 1.1 %.
   constexpr int experiments = 400;
   const Experiment truth{.flank_slope = 0.03, .centring_per_um = -0.004, .events = 200};
   double sine = 0, flank = 0, centring = 0, axis = 0;
@@ -67,7 +67,7 @@ TEST(BesideAxis, SlopesAndCentringOfSimulatedExperimentsAreWithoutBiasAndTheirEr
   }
   EXPECT_NEAR(sine / truth.sine_slope, 1, 0.01);
   EXPECT_NEAR(flank / truth.flank_slope, 1, 0.05);        // three standard errors of the mean
-  EXPECT_NEAR(centring / truth.centring_per_um, 1, 0.1);  // likewise
+  EXPECT_NEAR(centring / truth.centring_per_um, 1, 0.1);  // the same tolerance
   EXPECT_NEAR(axis, 13.4, 0.01);
   for (const int held : {sine_held, flank_held, centring_held}) EXPECT_NEAR(held / double(experiments), 0.95, 0.035);
 }

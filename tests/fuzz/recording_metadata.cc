@@ -1,4 +1,4 @@
-// Any metadata of a recording tell how it was measured, or are refused. Each line of the input is one value,
+// Any metadata of a recording state how it was measured, or are refused. Each line of the input is one value,
 // "section:key=text"; a text that begins with # is stored as the number behind it.
 #include <unistd.h>
 

@@ -150,7 +150,7 @@ std::size_t stored_width(const std::filesystem::path& path, const std::string& f
 }
 
 TEST(CompanionFile, FeaturesOfTheOriginalAreTakenOverAsTheyAreStored) {
-  // Where they are compressed as a companion wants it, in the original's precision; else they are written anew. Both
+  // Where they are compressed as a companion wants it, in the original's precision; else they are written again. Both
   // ways carry the same numbers and their extremes.
   const ScratchFolder folder;
   {

@@ -72,7 +72,7 @@ TEST(CompiledProducts, PartsOfMatricesAndExpressionsAreFactorsToo) {
 }
 
 TEST(CompiledProducts, AFactorMayBeWrittenTo) {
-  // Eigen evaluates the product first, unless it is told that nothing is shared.
+  // Eigen evaluates the product first, unless the code states that nothing is shared.
   Eigen::MatrixXd a = Eigen::MatrixXd::Random(25, 25);
   const Eigen::MatrixXd b = a, expected = b.lazyProduct(b);
   a = a * a;

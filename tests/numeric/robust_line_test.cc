@@ -33,7 +33,7 @@ TEST(RobustLine, TwentyPercentOfStrayPointsHardlyMoveIt) {
 
 TEST(RobustLine, TheErrorsAreThoseOfRepeatedSamples) {
   // 95 % of the intervals of two errors hold the slope, whatever a twentieth of wild points does; t-distribution with
-  // 28 degrees of freedom: 94.5 %; 2000 samples tell 0.5 %.
+  // 28 degrees of freedom: 94.5 %; 2000 samples resolve 0.5 %.
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   int held = 0;

@@ -89,7 +89,7 @@ TEST(FitMoments, MeansAndSpreadsComeBackWithinTheirErrors) {
   }
 }
 
-// A scatter that the law does not have, of the first measure alone: where the means are told by the means, it moves the
+// A scatter that the law does not have, of the first measure alone: if the means follow from the means, it moves the
 // spreads and not them.
 TEST(FitMoments, AScatterOfAnotherKindMovesTheSpreadsOnly) {
   const ThreeMeasures model(0);
@@ -139,7 +139,7 @@ TEST(FitMoments, WhatNothingScattersIsAtItsBound) {
 }
 
 TEST(FitMoments, AMeanAtItsBoundIsNotKnownForThat) {
-  // The bound is the model's. What depends on this mean is told about as well as if there were no bound, not better.
+  // The bound is the model's. What depends on this mean is known about as well as if there were no bound, not better.
   const ThreeMeasures model(0.3);
   const MatrixXd events = model.events(500, 11, 1, 2, 0.2, 0.15);
   MomentSettings bounded = settings();

@@ -46,7 +46,7 @@ def pixel_size(path):
 
 
 def has_events(path):
-    """Whether dclab finds something to tell a modulus from."""
+    """Whether dclab finds something to determine a modulus from."""
     try:
         with dclab.new_dataset(path) as dataset:
             return len(dataset) > 0 and "area_um" in dataset and "deform" in dataset

@@ -1,4 +1,4 @@
-"""A case has the keys of case files as attributes, checks them at once and tells mistakes by one sentence."""
+"""A case has the keys of case files as attributes, checks them at once and reports mistakes by one sentence."""
 
 import pickle
 

@@ -105,7 +105,7 @@ def recorded(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pooled(recorded):
-    """Recordings by the size of their pixels: dclab triangulates a table anew in each call, but asks each event on its own."""
+    """Recordings by the size of their pixels: dclab triangulates a table again in each call, but asks each event on its own."""
     by_pixel = {}
     for path in [recorded, *(value for parameter in WITH_EVENTS for value in parameter.values)]:
         if dclab_parity.has_events(path):

@@ -209,7 +209,7 @@ VIRTUAL = {"recording": {"cells": 100, "seed": 3}, "channel": {"width_um": 20},
 
 @pytest.mark.parametrize("tension", [0, 400])
 def test_the_recommended_number_of_a_companion_is_that_of_extract(plugin, program, tmp_path, tension):
-    """Other recordings have none: of elongated cells E from deformation is far too low, and masks tell more of round ones."""
+    """Other recordings have none: of elongated cells E from deformation is far too low, and masks show more of round ones."""
     rheocyte.synth(VIRTUAL, tmp_path / "cells.rtdc", flow__axial_tension_Pa=tension)
     recommended = rheocyte.extract(tmp_path / "cells.rtdc").attrs["recommended"]
     subprocess.run([program, "extract", "cells.rtdc", "-o", "out", "--quiet"], cwd=tmp_path, check=True)

@@ -183,7 +183,7 @@ def test_a_plan_reads_the_former_name_of_its_temperature():
 
 
 def with_cortex(record):
-    """The same recordings as cells with a cortex, of which two numbers are told."""
+    """The same recordings as cells with a cortex, of which two numbers are reported."""
     record = copy.deepcopy(record)
     record["model"] = "cortex"
     record["quantities"] = [quantity("stiffness", "kPa", "E + E2D/r0"), quantity("cortex_modulus", "mN/m", "E2D")]

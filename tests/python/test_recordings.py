@@ -1,4 +1,4 @@
-"""Recordings and masks give in Python what dclab and the command line give; mistakes are told."""
+"""Recordings and masks give in Python what dclab and the command line give; mistakes are reported."""
 
 import json
 import subprocess
@@ -290,7 +290,7 @@ def test_moduli_of_bulk_and_cortex_come_back(program, tmp_path):
     assert frame.attrs["units"]["cortex_modulus_mN_per_m_error"] == "mN/m"
     numbers = frame.drop(columns="status")
     pandas.testing.assert_frame_equal(numbers, written[[*numbers]], check_dtype=False, rtol=5.1e-3)  # three digits or six
-    # Of 60 cells with 10 % each; the sum is what the deformation tells.
+    # Of 60 cells with 10 % each; the sum is what the deformation gives.
     bulk, cortex = frame["young_modulus_kPa"].median(), frame["cortex_modulus_mN_per_m"].median()
     assert bulk + cortex / 6.5 == pytest.approx(2 + 10 / 6.5, rel=0.05)
     assert bulk == pytest.approx(2, rel=0.2) and cortex == pytest.approx(10, rel=0.2)

@@ -14,7 +14,7 @@ from test_recordings import CELLS
 from test_view_recordings import View
 
 STUB = ast.parse((Path(rheocyte.__file__).parent / "recordings.pyi").read_text(encoding="utf-8"))
-# What says which files are read and written, and what is told meanwhile.
+# What says which files are read and written, and what is reported meanwhile.
 OF_FILES = {"help", "output", "jobs", "recursive", "quiet", "no-tsv", "no-picture", "progress", "condition"}
 
 

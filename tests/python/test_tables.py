@@ -164,7 +164,7 @@ def test_texts_are_made_of_tables(name):
     lambda table: table.modulus(60, 0.02, **WATERY), lambda table: table.shapes(60, 0.02, 1.1, channel_width_um=20),
     lambda table: table.lines([1, 2]), lambda table: table.support()])
 def test_without_pixels_is_said_on_purpose(call, table):
-    """What pixels do is 20 % of a modulus: nobody leaves it out by forgetting a word."""
+    """What pixels do is 20 % of a modulus: no one leaves it out by forgetting a word."""
     with pytest.raises(TypeError, match="pixel_size_um"):
         call(table)
 

@@ -1,4 +1,4 @@
-// The figure command refuses what it cannot make with one sentence; a checked case tells the identity of its results.
+// The figure command refuses what it cannot make with one sentence; a checked case gives the identity of its results.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

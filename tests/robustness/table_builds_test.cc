@@ -1,4 +1,4 @@
-// Programs of different builds at one table: whoever wants other branches, or reads other records, is refused by one
+// Programs of different builds at one table: one that wants other branches, or reads other records, is refused by one
 // sentence; nothing hangs and nothing is mixed.
 #include <gtest/gtest.h>
 

@@ -111,7 +111,7 @@ class Floods(unittest.TestCase):
         self.assertTrue(answer.startswith(b"HTTP/1.1 200"), (answer[:300], view.process.poll()))
 
     def test_the_view_answers_after_a_flood_under_every_limit(self):
-        """Closes, ranges, bodies cut short, cells that nobody waits for: nothing of it ends the view."""
+        """Closes, ranges, bodies cut short, cells that no one waits for: nothing of it ends the view."""
         for name, limit in LIMITS.items():
             with self.subTest(limit=name):
                 view = View(limit)
@@ -126,7 +126,7 @@ class Floods(unittest.TestCase):
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("setpriv"), "needs a user without other processes")
     def test_where_the_system_gives_few_threads_it_answers_or_says_so(self):
-        """A limit of processes, which counts threads, ends no view by an exception that nobody takes."""
+        """A limit of processes, which counts threads, ends no view by an exception that no one catches."""
         user = ["setpriv", "--reuid", "54321", "--regid", "54321", "--clear-groups"]
         answered = 0
         for most in (1, 2, 3, 4, 5, 6, 8, 12):

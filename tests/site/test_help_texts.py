@@ -1,4 +1,4 @@
-"""The program's help, taken apart: names and sentences are told from each other wherever they stand."""
+"""The program's help, taken apart: names and sentences are distinguished wherever they stand."""
 import sys
 import unittest
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Docstrings of the Python package as pages: arguments are told from sentences and calls."""
+"""Docstrings of the Python package as pages: arguments are distinguished from sentences and calls."""
 import sys
 import unittest
 from pathlib import Path

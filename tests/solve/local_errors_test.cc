@@ -1,4 +1,4 @@
-// What a step leaves behind is told by the levels that it is made from.
+// What a step leaves as an error follows from the levels that it is made from.
 #include "solve/local_errors.h"
 
 #include <gtest/gtest.h>

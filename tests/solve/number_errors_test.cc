@@ -124,7 +124,7 @@ TEST(NumberErrors, OfTwoTheGreaterOneIsTakenOfEachNumberThatIsKnown) {
 }
 
 TEST(ErrorOfLast, IsTheRestOfAGeometricSeries) {
-  // 1 + 1/2 + 1/4: 1/4 is left. Of two values it is twice their difference; one tells nothing.
+  // 1 + 1/2 + 1/4: 1/4 is left. Of two values it is twice their difference; one gives no error.
   EXPECT_DOUBLE_EQ(error_of_last(std::array{1.0, 1.5, 1.75}), 0.25);
   EXPECT_DOUBLE_EQ(error_of_last(std::array{1.0, 1.5}), 1);
   EXPECT_TRUE(std::isinf(error_of_last(std::array{1.0})));

@@ -44,7 +44,7 @@ void follow(TimeStepper& stepper, double end) {
   while (stepper.now().time < end) ASSERT_EQ(stepper.step(end).status, Status::converged);
 }
 
-/// The stationary state whose barycentre is at a place; a mesh is told the place of the node that is held.
+/// The stationary state whose barycentre is at a place; a mesh gets the place of the node that is fixed.
 StateNumbers stationary_at(double offset, double young_modulus_Pa) {
   StateNumbers numbers;
   double held = offset;

@@ -1,4 +1,4 @@
-// A session answers as a solver that starts anew does: in all its numbers, wherever the session comes from.
+// A session answers as a solver that starts from nothing: in all its numbers, wherever the session comes from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ void change(std::mt19937& random, Problem& problem) {
   problem.radius_ratio = std::clamp(problem.radius_ratio, 0.25, 0.8);
 }
 
-/// Another liquid or another drive; the next state starts anew.
+/// Another liquid or another drive; the next state starts from the beginning.
 void change_kind(std::mt19937& random, Problem& problem) {
   problem.liquid = {};
   const double liquid = uniform(random, 0, 1);
@@ -103,7 +103,7 @@ void change_kind(std::mt19937& random, Problem& problem) {
   problem.channel_length = 0;
 }
 
-/// A walk of a session by so many changes, with a solution anew of each.
+/// A walk of a session by so many changes, with a solution from the beginning of each.
 Comparison walk(Problem problem, int steps, unsigned seed) {
   std::mt19937 random(seed);
   Session session;

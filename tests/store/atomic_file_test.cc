@@ -83,7 +83,7 @@ TEST_F(AtomicFileTest, WhatAKilledProcessHasLeftIsRemovedAndWhatIsInUseIsNot) {
   const Scratch in_use = new_scratch_file(folder_ / "e.txt");
   EXPECT_FALSE(fs::exists(other));
   const pid_t child = ::fork();
-  if (child == 0) ::_exit(write_atomically(folder_ / "a.txt", "new"));  // another process looks for left-overs anew
+  if (child == 0) ::_exit(write_atomically(folder_ / "a.txt", "new"));  // another process looks for left-overs again
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);

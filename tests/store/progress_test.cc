@@ -1,4 +1,4 @@
-// How far a file has come is told where somebody looks on.
+// How far a file has come is reported if somebody looks on.
 #include "store/progress.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 TEST(FileProgress, IsNoPartOfAnErrorOutputThatIsCaptured) {
   testing::internal::CaptureStderr();  // a file
   FileProgress progress("a.rtdc", false);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // from 2 s on a terminal would be told
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // from 2 s on a terminal would get a report
   progress(0.63);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

@@ -16,7 +16,7 @@ TEST(Scratch, FoldersStandWhileOthersRemoveWhatIsLeftOver) {
   const fs::path place = fs::path(testing::TempDir()) / "scratch-race" / "files";
   fs::create_directories(place.parent_path());
   std::atomic<bool> is_over = false;
-  // A folder is nobody's for the moment between its making and its claim.
+  // A folder is no one's for the moment between its making and its claim.
   std::thread other([&] {
     while (!is_over)
       for (const Scratch& left : left_over_folders(place)) fs::remove_all(left.path);

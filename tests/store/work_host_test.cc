@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Within a minute. A process that nobody has asked for its status yet has ended, too: its state is Z.
+/// Within a minute. A process that no one has asked for its status yet has ended, too: its state is Z.
 bool ends(const std::string& process) {
   for (int i = 0; i < 60'000; ++i) {
     std::ifstream status("/proc/" + process + "/stat");
@@ -61,7 +61,7 @@ TEST(WorkHost, AnswersEachOfManyThreadsWithWhatItAskedFor) {
 
 TEST(WorkHost, RemovesTheFoldersThatKilledHostsHaveLeft) {
   const fs::path left =
-      new_scratch_folder(fs::temp_directory_path() / "rheocyte-view").path;  // nobody holds it any more
+      new_scratch_folder(fs::temp_directory_path() / "rheocyte-view").path;  // no one holds it any more
   std::ofstream(left / "data") << "of a killed program";
   const auto echo = [](const std::string& request, const WorkReply& reply) { reply.give(request); };
   const WorkHost first(echo), second(echo);
@@ -70,7 +70,7 @@ TEST(WorkHost, RemovesTheFoldersThatKilledHostsHaveLeft) {
 }
 
 TEST(WorkHost, NobodyHoldsTheFolderForItsFiles) {
-  // Whoever puts files in their places claims their folder meanwhile.
+  // A program that puts files in their places claims their folder meanwhile.
   const WorkHost host([](const std::string&, const WorkReply&) {});
   EXPECT_TRUE(claim_on(host.folder()));
 }

@@ -1,4 +1,4 @@
-// Pieces are done in turn; what one throws reaches whoever gave it.
+// Pieces are done in turn; what one throws reaches its caller.
 #include "store/work_in_turn.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Scaling there and back changes nothing, it commutes with the formulas of the field, and doubts are told.
+// Scaling there and back changes nothing, it commutes with the formulas of the field, and doubts are reported.
 #include "table/scale.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is told of one event: the numbers of `rheocyte extract`, and a model cell that lies over the picture.
+// What is reported of one event: the numbers of `rheocyte extract`, and a model cell that lies over the picture.
 #include "view/event_inspector.h"
 
 #include <gtest/gtest.h>

@@ -42,7 +42,7 @@ class RecordingRequests : public testing::Test {
   /// Other cells in the place of those of a file, which is written into.
   void write_over(const std::string& name, int cells, int seed) {
     test::write_virtual_cells(folder_ / "others.rtdc", cells, seed);
-    fs::rename(folder_ / "others.rtdc", folder_ / name);  // one that is open in this process cannot be written anew
+    fs::rename(folder_ / "others.rtdc", folder_ / name);  // one that is open in this process cannot be written again
   }
   void wait_until_described() const {
     for (int round = 0; round < 3000 && json("GET", "/api/items")[0]["state"] == "loading"; ++round)

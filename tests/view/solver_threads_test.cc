@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t little_memory = 1 << 20;
 
-/// Leaves when it is told to.
+/// Leaves when it is asked to.
 class TestClient final : public Client {
  public:
   bool has_left() const override { return left; }

@@ -18,7 +18,7 @@ from rheocyte.files import InputError, number, read_table, reason, write_text
 
 CONDITIONS = {"channel.width_um": 20.0, "flow.rate_ul_per_s": 0.08, "flow.viscosity_mPas": 7.9}
 LEVELS_KPA = [2.405, 3.607, 4.809, 6.011, 7.213, 9.618, 12.023]  # the paper's lines
-AREA_UM2, HALF_WIDTH_UM2 = 144.0, 2.0  # the beads of which moduli are told
+AREA_UM2, HALF_WIDTH_UM2 = 144.0, 2.0  # the beads whose moduli are printed
 BEADS, MEAN_KPA, DEVIATION_KPA = 3000, 5.5, 1.1
 RADIUS_UM, RADIUS_DEVIATION_UM = 6.87, 0.2  # pixels make the areas some 3 % smaller: 144 um^2 are measured
 TABLE = {**CONDITIONS, "flow.density_kg_per_m3": 1000.0, "cell.bulk.law": "neo-hookean", "table.identifier": "BEADS-7",
