@@ -41,7 +41,7 @@ EffectivePopulations::EffectivePopulations(const PopulationOptions& options)
                     options.by));
   if (!options.table.empty())
     throw UserError("rheocyte: --table is not for --model effective, which takes the tables of the program.");
-  if (tables_.proportioned().empty())
+  if (!tables_.proportioned(1).in_liquid)
     throw UserError(
         "rheocyte: the tables of --model effective (combined_HL-2D-NH-26.cbor) are missing; install the program "
         "again.");
@@ -93,8 +93,8 @@ void EffectivePopulations::take_cell(const EventFigures& figures, const AxialTen
                                      RecordingReport& r) const {
   ChannelFlow flow = r.conditions.flow;
   flow.viscosity_mPas = r.median_viscosity_mPas;
-  EffectiveCell& cell = r.effective.emplace(
-      effective_cell(tables_.proportioned(), figures, {flow, tables_.section()}, r.pixel_size_um, tension));
+  EffectiveCell& cell = r.effective.emplace(effective_cell(tables_.proportioned(flow.exponent), figures,
+                                                           {flow, tables_.section()}, r.pixel_size_um, tension));
   if (!cell.is_found()) {
     r.failure = effective_place_text(cell);
     r.is_beyond = cell.place == EffectivePlace::softer || cell.place == EffectivePlace::longer;

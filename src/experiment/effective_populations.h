@@ -15,8 +15,8 @@ class EffectivePopulations : public PopulationModel {
 
   std::string_view name() const override { return "effective"; }
   std::string_view elongation_text() const override { return "by one axial tension of the liquid in each recording"; }
-  std::string table(const PopulationEvents&) override {
-    return tables_.proportioned().front()->table().spec().identifier;
+  std::string table(const PopulationEvents& events) override {
+    return tables_.proportioned(events.flow().exponent).in_liquid->table().spec().identifier;
   }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
   void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;

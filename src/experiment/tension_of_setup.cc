@@ -64,8 +64,8 @@ std::string sentence_on_sizes(const RecordingReports& setup) {
                   tension = mean_ratio(setup, &EffectiveCell::large_over_small_tension);
   if (!std::isfinite(modulus.log) || !std::isfinite(tension.log)) return {};
   return fmt::format(
-      "cells of the largest third of the areas over those of the smallest: E_eff {:.2f} +- {:.2f}, axial tension "
-      "{:.2f} +- {:.2f}: {}",
+      "cells of the largest third of the areas over those of the smallest: E_eff {:.3f} +- {:.3f}, axial tension "
+      "{:.3f} +- {:.3f}: {}",
       std::exp(modulus.log), std::exp(modulus.log) * modulus.error, std::exp(tension.log),
       std::exp(tension.log) * tension.error,
       std::abs(tension.log) < std::log1p(most_from_mean) ? "one tension for all sizes, as the model requires"

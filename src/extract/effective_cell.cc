@@ -154,31 +154,33 @@ void EventFigures::take(double event_area_um2, double event_deformation, double 
   inertia_ratio.push_back(event_inertia_ratio);
 }
 
-EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
-                             const Sight& sight, double pixel_size_um, const AxialTension& tension) {
+EffectiveCell effective_cell(const ProportionedTables& tables, const EventFigures& events, const Sight& sight,
+                             double pixel_size_um, const AxialTension& tension) {
   EffectiveCell cell;
   cell.events = events.area_um2.size();
   cell.section = sight.section;
-  if (laws.empty() || cell.events < min_events_of_effective_cell) return cell;
+  if (!tables.in_liquid || cell.events < min_events_of_effective_cell) return cell;
   if (!events.has_ratios && !tension.is_known()) return cell;
   cell.is_by_ratios = !tension.is_known();
   const SeenFigure by_ratios = medians_of(events);
   const SeenFigure seen = cell.is_by_ratios ? by_ratios : without_ratio(by_ratios);
-  const ProportionedEstimate found = laws.front()->estimate(seen, sight, pixel_size_um, tension);
-  cell.place = place_of(laws.front()->table(), found);
+  const ProportionedCells& cells = *tables.in_liquid;
+  const ProportionedEstimate found = cells.estimate(seen, sight, pixel_size_um, tension);
+  cell.place = place_of(cells.table(), found);
   cell.softest_kPa = found.softest_kPa;
   cell.wall_stress_Pa = wall_shear_stress_Pa(sight.flow);
   cell.viscosity_mPas = sight.flow.viscosity_mPas;
   if (!cell.is_found()) return cell;
   add_moduli(found, cell);
   cell.spread = spread_between(found, cell.events);
-  if (!cell.is_by_ratios && events.has_ratios)
-    add_by_ratios(laws.front()->estimate(by_ratios, sight, pixel_size_um), cell);
-  compare_sizes(*laws.front(), events, sight, pixel_size_um, tension, cell);
-  if (laws.size() < 2) return cell;
-  // Where its table ends first, it is continued; without such a cell NaN.
-  const ModuliEstimate other = laws[1]->estimate(seen, sight, pixel_size_um, tension).by_scatter;
-  cell.over_other_law = cell.effective_kPa.value / other.effective_modulus_kPa;
+  if (!cell.is_by_ratios && events.has_ratios) add_by_ratios(cells.estimate(by_ratios, sight, pixel_size_um), cell);
+  compare_sizes(cells, events, sight, pixel_size_um, tension, cell);
+  // Where their tables end first, they are continued; without such a cell NaN.
+  const auto by_law = [&](const ProportionedCells* law) {
+    if (law == &cells) return cell.effective_kPa.value;
+    return law ? law->estimate(seen, sight, pixel_size_um, tension).by_scatter.effective_modulus_kPa : no_value;
+  };
+  cell.over_other_law = by_law(tables.by_current_area) / by_law(tables.by_reference_area);
   return cell;
 }
 

@@ -2,7 +2,6 @@
 // reported of cells that the flow alone does not make so long (docs/theory-extract.md, sec. "The effective modulus").
 #pragma once
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -60,12 +59,10 @@ struct EffectiveCell {
 /// Fewer events have none.
 inline constexpr std::size_t min_events_of_effective_cell = 20;
 
-/// By cells of one law of the cortex or of two, of which the first counts. Its errors in common are those of pixels,
-/// section and table. An axial tension of the liquid that is known takes the place of the inertia ratios. Unknown for
-/// too few events, without a table, and where neither of the two is known.
-EffectiveCell effective_cell(std::span<const ProportionedCells* const> laws, const EventFigures& events,
-                             const Sight& sight, double pixel_size_um,
-                             const AxialTension& tension = AxialTension::unknown());
+/// Its errors in common are those of pixels, section and table. An axial tension of the liquid that is known takes the
+/// place of the inertia ratios. Unknown for too few events, without a table, and where neither of the two is known.
+EffectiveCell effective_cell(const ProportionedTables& tables, const EventFigures& events, const Sight& sight,
+                             double pixel_size_um, const AxialTension& tension = AxialTension::unknown());
 
 /// What the model adds to the errors in common: inertia, height, and the proportions and the law of the cortex. Of
 /// cells whose outlines show a cortex the proportions are better known.

@@ -93,8 +93,8 @@ bool Extraction::take_tension(const EffectiveCell& cell) {
   if (!cell.is_found()) return false;
   ChannelFlow flow = conditions().flow;
   flow.viscosity_mPas = cell.viscosity_mPas;
-  auto grid =
-      grid_under_tension(*tables_.proportioned().front(), {flow, tables_.section()}, cell.axial_tension_Pa.value);
+  auto grid = grid_under_tension(*tables_.proportioned(flow.exponent).in_liquid, {flow, tables_.section()},
+                                 cell.axial_tension_Pa.value);
   if (!grid) return false;
   effective_map_ = std::make_unique<const GridMap>(*std::move(grid));
   effective_cell_ = cell;

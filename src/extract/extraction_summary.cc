@@ -103,8 +103,8 @@ std::string Extraction::gates_on_shapes() const {
 void Extraction::add_effective_cell(ExtractSummary& s) const {
   ChannelFlow flow = conditions().flow;
   flow.viscosity_mPas = s.mean_viscosity_mPas;
-  s.shapes.effective = effective_cell(tables_.proportioned(), shape_tally_.figures(), {flow, tables_.section()},
-                                      conditions().pixel_size_um, tension_);
+  s.shapes.effective = effective_cell(tables_.proportioned(flow.exponent), shape_tally_.figures(),
+                                      {flow, tables_.section()}, conditions().pixel_size_um, tension_);
   add_errors_of_model(reynolds_number(buffer_density_kg_per_m3, flow), s.shapes.has_cortex_shapes(),
                       s.shapes.effective);
   if (s.shapes.is_tension_given) s.shapes.effective.axial_tension_Pa = {.value = tension_.value_Pa};

@@ -73,4 +73,12 @@ class ProportionedCells {
   BulkCortexFit fit_;
 };
 
+/// Tables of cells with a cortex in the proportions of HL60 cells; null without files.
+struct ProportionedTables {
+  const ProportionedCells* in_liquid = nullptr;  ///< in the liquid that is nearest to that of the recording
+  /// In a Newtonian liquid, by a cortex with an energy per current area, as in_liquid, and per reference area: their
+  /// ratio is what the law of the cortex changes.
+  const ProportionedCells *by_current_area = nullptr, *by_reference_area = nullptr;
+};
+
 }  // namespace rheocyte

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -28,6 +30,13 @@ constexpr std::string_view standard_tube_table = "LE-2D-26", standard_square_tab
 std::string_view standard_table(Section section) {
   return section == Section::square ? standard_square_table : standard_tube_table;
 }
+
+struct ProportionedFile {
+  std::string_view identifier;
+  double flow_exponent;
+};
+constexpr std::array<ProportionedFile, 4> proportioned_files{
+    {{"HL-2D-NH-26", 1}, {"HL-2D-NH-MC049-26", 0.6548}, {"HL-2D-NH-MC059-26", 0.5860}, {"HL-2D-NH-MC083-26", 0.5149}}};
 
 }  // namespace
 
@@ -184,16 +193,23 @@ const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
   return &found->liquid;
 }
 
-std::vector<const ProportionedCells*> ModulusTables::proportioned() const {
-  if (proportioned_.empty()) {
-    const auto shipped = shipped_combined_tables();
-    for (const char* identifier : {"HL-2D-NH-26", "HL-2D-NHR-26"})
-      if (const auto found = shipped.find(identifier); found != shipped.end())
-        proportioned_.push_back(std::make_unique<const ProportionedCells>(read_combined_table(found->second)));
-  }
-  std::vector<const ProportionedCells*> all;
-  for (const auto& cells : proportioned_) all.push_back(cells.get());
-  return all;
+const ProportionedCells* ModulusTables::proportioned_table(std::string_view identifier) const {
+  const auto read = proportioned_.find(identifier);
+  if (read != proportioned_.end()) return read->second.get();
+  const auto shipped = shipped_combined_tables();
+  const auto found = shipped.find(std::string(identifier));
+  if (found == shipped.end()) return nullptr;
+  auto cells = std::make_unique<const ProportionedCells>(read_combined_table(found->second));
+  return proportioned_.emplace(identifier, std::move(cells)).first->second.get();
+}
+
+ProportionedTables ModulusTables::proportioned(double flow_exponent) const {
+  const auto misfit = [&](const ProportionedFile& file) { return std::abs(file.flow_exponent - flow_exponent); };
+  const auto& nearest = *std::ranges::min_element(proportioned_files, {}, misfit);
+  ProportionedTables tables{proportioned_table(nearest.identifier), proportioned_table("HL-2D-NH-26"),
+                            proportioned_table("HL-2D-NHR-26")};
+  if (!tables.in_liquid) tables.in_liquid = tables.by_current_area;
+  return tables;
 }
 
 const ShapeMap* ModulusTables::shapes(double flow_exponent) const {

@@ -53,10 +53,9 @@ class ModulusTables {
   /// liquid, or that of the nearest one changed to it; null in the tube, and where there is none.
   const ElongatedLiquid* elongated(double flow_exponent) const;
 
-  /// Cells with a cortex, in the proportions of HL60 cells, for the effective modulus: by the laws of the cortex with
-  /// an energy per current area and per reference area; without the tables that come with the program none. UserError
-  /// if a table cannot be read.
-  std::vector<const ProportionedCells*> proportioned() const;
+  /// Cells with a cortex, in the proportions of HL60 cells, for the effective modulus; none without the tables that
+  /// come with the program. UserError if a table cannot be read.
+  ProportionedTables proportioned(double flow_exponent) const;
 
   /// Of all that can be used.
   std::vector<std::filesystem::path> files() const;
@@ -101,7 +100,8 @@ class ModulusTables {
     Elongated(ElongatedContent content, std::unique_ptr<const ModulusMap> same,
               std::unique_ptr<const ModulusMap> other);
   };
-  mutable std::vector<std::unique_ptr<const ProportionedCells>> proportioned_;  ///< once they are needed
+  const ProportionedCells* proportioned_table(std::string_view identifier) const;
+  mutable std::map<std::string, std::unique_ptr<const ProportionedCells>, std::less<>> proportioned_;  ///< once needed
   mutable std::map<double, std::unique_ptr<const Elongated>> elongated_;  ///< by the exponent of the recording's liquid
   bool given_ = false;                                                    ///< the first one is the user's choice
 };

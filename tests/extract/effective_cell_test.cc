@@ -25,6 +25,8 @@ const ProportionedCells& cells() {
   return found;
 }
 
+ProportionedTables tables() { return {&cells(), &cells(), nullptr}; }
+
 /// Of the table, with this radius and stiffness, under the tension.
 CellCoordinates cell_with(double radius_um, double stiffness_kPa) {
   constexpr int halvings = 50;
@@ -70,10 +72,7 @@ EventFigures seen_events(const Sample& sample, std::uint64_t seed) {
   return events;
 }
 
-EffectiveCell effective_of(const EventFigures& events) {
-  const std::vector<const ProportionedCells*> laws{&cells()};
-  return effective_cell(laws, events, {flow}, pixel_um);
-}
+EffectiveCell effective_of(const EventFigures& events) { return effective_cell(tables(), events, {flow}, pixel_um); }
 
 TEST(EffectiveCellInMemory, MedianHasNoBiasAndItsErrorIsThatOfItsScatter) {
   constexpr int recordings = 20;
@@ -149,10 +148,9 @@ TEST(EffectiveCellInMemory, AKnownTensionReplacesInertiaRatios) {
   EventFigures events = whole;
   events.has_ratios = false;
   std::ranges::fill(events.inertia_ratio, no_value);
-  const std::vector<const ProportionedCells*> laws{&cells()};
-  EXPECT_EQ(effective_cell(laws, events, {flow}, pixel_um).place, EffectivePlace::unknown);
+  EXPECT_EQ(effective_cell(tables(), events, {flow}, pixel_um).place, EffectivePlace::unknown);
   const AxialTension known{by_shapes.axial_tension_Pa.value, 0};
-  const EffectiveCell by_tension = effective_cell(laws, events, {flow}, pixel_um, known);
+  const EffectiveCell by_tension = effective_cell(tables(), events, {flow}, pixel_um, known);
   ASSERT_TRUE(by_tension.is_found());
   EXPECT_FALSE(by_tension.is_by_ratios);
   EXPECT_NEAR(by_tension.effective_kPa.value / by_shapes.effective_kPa.value, 1, 2e-3);
@@ -160,7 +158,7 @@ TEST(EffectiveCellInMemory, AKnownTensionReplacesInertiaRatios) {
   // The error of the tension is part of that of the modulus.
   const auto under = [&](double over_known, double relative_error) {
     const AxialTension tension{over_known * known.value_Pa, relative_error * known.value_Pa};
-    return effective_cell(laws, events, {flow}, pixel_um, tension).effective_kPa;
+    return effective_cell(tables(), events, {flow}, pixel_um, tension).effective_kPa;
   };
   const double change = (under(1.03, 0).value - under(0.97, 0).value) / 0.06 * 0.1;
   EXPECT_NEAR(std::hypot(by_tension.effective_kPa.error, change) / under(1, 0.1).error, 1,
@@ -172,10 +170,9 @@ TEST(EffectiveCellInMemory, AKnownTensionComesBeforeTheInertiaRatios) {
   const EventFigures whole = seen_events({0.3, 0.2, 0, 200}, 11);
   EventFigures without = whole;
   without.has_ratios = false;
-  const std::vector<const ProportionedCells*> laws{&cells()};
   const AxialTension other{250, 0};
-  const EffectiveCell cell = effective_cell(laws, whole, {flow}, pixel_um, other), by_shapes = effective_of(whole);
-  EXPECT_EQ(cell.effective_kPa.value, effective_cell(laws, without, {flow}, pixel_um, other).effective_kPa.value);
+  const EffectiveCell cell = effective_cell(tables(), whole, {flow}, pixel_um, other), by_shapes = effective_of(whole);
+  EXPECT_EQ(cell.effective_kPa.value, effective_cell(tables(), without, {flow}, pixel_um, other).effective_kPa.value);
   EXPECT_EQ(cell.by_ratios_kPa, by_shapes.effective_kPa.value);
   EXPECT_EQ(cell.by_ratios_tension_Pa, by_shapes.axial_tension_Pa.value);
 }
