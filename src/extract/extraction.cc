@@ -94,7 +94,7 @@ bool Extraction::take_tension(const EffectiveCell& cell) {
   ChannelFlow flow = conditions().flow;
   flow.viscosity_mPas = cell.viscosity_mPas;
   auto grid = grid_under_tension(*tables_.proportioned(flow.exponent).in_liquid, {flow, tables_.section()},
-                                 cell.axial_tension_Pa.value);
+                                 cell.axial_tension_Pa.value, conditions().pixel_size_um);
   if (!grid) return false;
   effective_map_ = std::make_unique<const GridMap>(*std::move(grid));
   effective_cell_ = cell;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "measurement/pixel_errors.h"
 #include "numeric/lagrange.h"
 #include "table/origin_record.h"
 
@@ -22,6 +23,7 @@ constexpr std::size_t points_around = 4;
 /// Of a line of cells with one area under one tension, from stiff to soft.
 struct LinePoint {
   double log_deformation, log_modulus;
+  CellCoordinates cell;
 };
 using Line = std::vector<LinePoint>;
 
@@ -117,7 +119,7 @@ class TensionedCells {
       const double deformation =
           state.value(deformation_row) + cells_.change_by_section(cell, sight_)(int(ShapeFeature::deformation));
       return LinePoint{std::log(std::max(deformation, std::numeric_limits<double>::min())),
-                       std::log(cells_.effective_modulus_kPa(cell))};
+                       std::log(cells_.effective_modulus_kPa(cell)), cell};
     }
     return {};
   }
@@ -149,13 +151,81 @@ std::vector<RowValue> values_at_rows(const Line& line) {
   return values;
 }
 
+/// What pixels add to the deformations of a line's cells beyond the law of the pixels, at some of its cells and linear
+/// between them.
+class PixelsBeyondLaw {
+ public:
+  PixelsBeyondLaw(const ProportionedCells& cells, const Sight& sight, double pixel_size_um)
+      : cells_(cells), sight_(sight), pixel_size_um_(pixel_size_um) {}
+
+  /// At cells from stiff to soft.
+  std::vector<double> at_nodes(const Line& line) const {
+    std::vector<double> excess;
+    for (int k = 0; k < nodes; ++k) excess.push_back(of(line[std::size_t(k) * (line.size() - 1) / (nodes - 1)].cell));
+    return excess;
+  }
+
+  /// Shifts the deformations of a line whose cells have these.
+  static void add(const std::vector<double>& at_nodes, Line& line) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const double place = double(i) / double(line.size() - 1) * (nodes - 1);
+      const auto before = std::min(std::size_t(place), std::size_t(nodes - 2));
+      const double excess = std::lerp(at_nodes[before], at_nodes[before + 1], place - double(before));
+      const double deformation = std::exp(line[i].log_deformation);
+      line[i].log_deformation += std::log1p(excess * std::min(1 / deformation, 1 / elongated));
+    }
+  }
+
+ private:
+  static constexpr int nodes = 6, places = 200;
+  /// Below this deformation cells are about round, and the excess is that in proportion.
+  static constexpr double elongated = 0.02;
+
+  double of(const CellCoordinates& cell) const {
+    const ShapeVector by_pixels = cells_.added(cell, sight_, pixel_size_um_, places).by_pixels.bias,
+                      seen = cells_.smooth_shape(cell, sight_) + by_pixels;
+    const double log_area_px = seen(int(ShapeFeature::area_um2)) - 2 * std::log(pixel_size_um_);
+    const PixelErrors by_law = pixel_errors(log_area_px, seen(int(ShapeFeature::deformation)));
+    return by_pixels(int(ShapeFeature::deformation)) - by_law.deformation_excess;
+  }
+
+  const ProportionedCells& cells_;
+  const Sight& sight_;
+  double pixel_size_um_;
+};
+
 bool is_long(const Line& line) {
   return line.size() >= points_around && line.back().log_deformation - line.front().log_deformation > least_height;
 }
 
+/// Shifts the lines by what pixels add beyond the law at some of them, linear between these.
+void add_pixels_beyond_law(const PixelsBeyondLaw& pixels, std::span<Line> lines) {
+  constexpr std::size_t stretches = 4;
+  const auto begin_of = [&](std::size_t stretch) { return stretch * (lines.size() - 1) / stretches; };
+  std::vector<std::vector<double>> at_lines;
+  for (std::size_t k = 0; k <= stretches; ++k) at_lines.push_back(pixels.at_nodes(lines[begin_of(k)]));
+  std::size_t stretch = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    while (stretch + 1 < stretches && i >= begin_of(stretch + 1)) ++stretch;
+    const std::size_t begin = begin_of(stretch), end = begin_of(stretch + 1);
+    const double place = end > begin ? double(i - begin) / double(end - begin) : 0;
+    std::vector<double> excess;
+    for (std::size_t node = 0; node < at_lines.front().size(); ++node)
+      excess.push_back(std::lerp(at_lines[stretch][node], at_lines[stretch + 1][node], place));
+    PixelsBeyondLaw::add(excess, lines[i]);
+  }
+}
+
+/// The first lines that are long, and none beyond the first one that is not again.
+std::span<Line> long_ones(std::vector<Line>& lines) {
+  const auto first = std::ranges::find_if(lines, is_long);
+  return {first, std::find_if_not(first, lines.end(), is_long)};
+}
+
 }  // namespace
 
-std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa) {
+std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa,
+                                              double pixel_size_um) {
   const TensionedCells tensioned(cells, sight, tension_Pa);
   GridContent grid;
   grid.origin = origin_of(cells.table().spec(), {});
@@ -164,16 +234,16 @@ std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, co
   grid.min_log_area = smallest;
   grid.columns = columns;
   grid.column_step = (largest - smallest) / (columns - 1);
+  std::vector<Line> all;
+  for (int column = 0; column < columns; ++column) all.push_back(tensioned.line(smallest + column * grid.column_step));
+  const std::span<Line> lines = long_ones(all);
+  if (lines.size() < 2) return {};
+  if (pixel_size_um > 0) add_pixels_beyond_law({cells, sight, pixel_size_um}, lines);
   GridPatch patch;
   patch.rows = rows;
-  for (int column = 0; column < columns; ++column) {
-    const Line line = tensioned.line(grid.min_log_area + column * grid.column_step);
-    if (!is_long(line)) {
-      if (patch.columns > 0) break;
-      patch.first_column = column + 1;
-      continue;
-    }
-    ++patch.columns;
+  patch.first_column = int(lines.data() - all.data());
+  patch.columns = int(lines.size());
+  for (const Line& line : lines) {
     patch.lower.push_back(line.front().log_deformation);
     patch.upper.push_back(line.back().log_deformation);
     patch.beyond.push_back(double(OutOfTable::too_soft));
@@ -182,7 +252,6 @@ std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, co
       patch.error.push_back(cells.table().spec().accuracy * std::max(std::abs(slope), 1.0));  // that of the deformation
     }
   }
-  if (patch.columns < 2) return {};
   grid.patches.push_back(std::move(patch));
   return grid;
 }

@@ -8,8 +8,11 @@
 
 namespace rheocyte {
 
-/// Without pixels, in the channel and flow of the table; the stiffness is the effective modulus. `tension_Pa` is that
-/// in the recording's flow. Nothing if the table has no cells under such a tension.
-std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa);
+/// In the channel and flow of the table; the stiffness is the effective modulus. `tension_Pa` is that in the
+/// recording's flow. Deformations are those that remain once a GridMap has subtracted its law of the pixels, which is
+/// that of round solids: elongated cells have 0.001 to 0.003 more. A pixel size of zero: without pixels. Nothing if the
+/// table has no cells under such a tension.
+std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa,
+                                              double pixel_size_um = 0);
 
 }  // namespace rheocyte

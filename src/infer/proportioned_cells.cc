@@ -117,8 +117,8 @@ ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, co
   return added_by_section(cell, fit_.shape_of(cell, sight.flow), sight).bias;
 }
 
-ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
-                                                  double pixel_size_um) const {
+ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um,
+                                                  int places) const {
   const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
   ShapeErrors by_square = added_by_section(cell, in_tube, sight);
   by_square.covariance *= sight.error_factor * sight.error_factor;
@@ -126,7 +126,7 @@ ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, c
   const ShapeVector smooth = in_tube + by_square.bias;
   CellRandom random{1, 0, Purpose::picture};  // the same places for all recordings, whose ratios they leave alone
   const Eigen::MatrixX2d outline = outline_of(smooth);
-  ShapeErrors by_pixels = errors_in_pixels(outline, pixel_size_um, draws, random);
+  ShapeErrors by_pixels = errors_in_pixels(outline, pixel_size_um, places, random);
   add_lost_corners(smooth(int(ShapeFeature::deformation)) - outline_shape(outline).deformation, by_pixels);
   return {by_square, by_pixels};
 }
@@ -190,7 +190,7 @@ ProportionedEstimate ProportionedCells::estimate(SeenFigure seen, const Sight& s
   for (int round = 0; round < rounds; ++round) {
     nearest = this->nearest(shape, sight.flow, tension, nearest ? &nearest->cell : nullptr);
     if (!nearest) return {};
-    errors = added(nearest->cell, sight, pixel_size_um);
+    errors = added(nearest->cell, sight, pixel_size_um, draws);
     shape.errors.bias = errors.by_square.bias + errors.by_pixels.bias;
   }
   const auto with_errors = [&](const Eigen::Matrix3d& covariance) {

@@ -48,14 +48,18 @@ class ProportionedCells {
   double effective_modulus_kPa(const CellCoordinates& cell) const;
   /// What the section of the channel adds to the features of a cell of the table, on average.
   ShapeVector change_by_section(const CellCoordinates& cell, const Sight& sight) const;
-
- private:
-  /// What is added to the features of a cell of the table.
+  /// What the section and the pixels, at so many places on the camera, add to the features of a cell of the table.
   struct Added {
     ShapeErrors by_square, by_pixels;
   };
+  Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um, int places) const;
+  /// Of a cell of the table, as it is seen without pixels.
+  ShapeVector smooth_shape(const CellCoordinates& cell, const Sight& sight) const {
+    return fit_.shape_of(cell, sight.flow) + change_by_section(cell, sight);
+  }
+
+ private:
   ShapeErrors added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight) const;
-  Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
   /// The cell, or the last one of the table on the way there from a stiffer one.
   CellCoordinates held_inside(CellCoordinates cell) const;
   /// Where fits from cells of other stiffness end, from the same size and under the same tension.
