@@ -78,20 +78,23 @@ CombinedMoments::Shape CombinedMoments::shape_in_tube(const Numbers& numbers, do
   const CellBox& box = moduli_.table().box();
   const double least = box.least(x_progress) - beyond_stiff_end, greatest = box.greatest(x_progress) + beyond_soft_end;
   cell(x_progress) = std::clamp(first, least, greatest);
-  CombinedState state;
+  CellLine line = moduli_.table().line(held(cell, box));
   CellCoordinates beyond;
-  bool is_there = false;
-  for (int step = 0; step < newton_steps_to_progress; ++step) {
+  const auto go_to = [&](double progress) {
+    cell(x_progress) = progress;
     beyond = cell - held(cell, box);
-    state = moduli_.table().at(cell - beyond);
-    if (is_there) break;
-    const double off =
-        state.value(log_stiffness_row) + state.gradient.row(log_stiffness_row).dot(beyond) - log_stiffness;
-    const double slope = std::min(state.gradient(log_stiffness_row, x_progress), least_slope_of_stiffness);
+    return progress - beyond(x_progress);
+  };
+  bool is_there = false;
+  for (int step = 0; step < newton_steps_to_progress && !is_there; ++step) {
+    const CellFunction found = line.log_stiffness(go_to(cell(x_progress)));
+    const double off = found.value + found.gradient.dot(beyond) - log_stiffness;
+    const double slope = std::min(found.gradient(x_progress), least_slope_of_stiffness);
     const double next = std::clamp(cell(x_progress) - std::clamp(off / slope, -1.0, 1.0), least, greatest);
     is_there = std::abs(next - cell(x_progress)) < 1e-10;
     cell(x_progress) = next;
   }
+  const CombinedState state = line.at(go_to(cell(x_progress)));
   Eigen::Matrix<double, coordinate_count, varying> by = Eigen::Matrix<double, coordinate_count, varying>::Zero();
   by(x_radius, 0) = by(x_fraction, 2) = by(x_ratio, 3) = 1;
   by(x_axial, 1) = -axial, by(x_axial, 4) = std::exp(-numbers(1));

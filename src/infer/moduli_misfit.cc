@@ -84,16 +84,17 @@ ModuliMisfit::Place ModuliMisfit::place(const Eigen::VectorXd& parameters) const
 CombinedState ModuliMisfit::meet_stiffness(double log_stiffness, CellCoordinates& cell) const {
   constexpr int most_steps = 20;
   constexpr double tolerance = 1e-5, flattest = -0.3;
-  const auto step = [&](const CombinedState& state, double less = 0) {
-    const double slope = std::min(state.gradient(log_stiffness_row, x_progress), flattest);
-    return (log_stiffness - state.value(log_stiffness_row) - less) / slope;
-  };
+  const auto step = [&](double value, double slope) { return (log_stiffness - value) / std::min(slope, flattest); };
+  const auto from_last = last_.state.gradient.row(log_stiffness_row);
   cell(x_progress) = last_.cell(x_progress);
-  cell(x_progress) += step(last_.state, last_.state.gradient.row(log_stiffness_row).dot(cell - last_.cell));
+  cell(x_progress) +=
+      step(last_.state.value(log_stiffness_row) + from_last.dot(cell - last_.cell), from_last(x_progress));
+  CellLine line = table_.line(cell);
   for (int k = 0;; ++k) {
-    CombinedState state = table_.at(cell);
-    const double change = step(state);
+    const CellFunction found = line.log_stiffness(cell(x_progress));
+    const double change = step(found.value, found.gradient(x_progress));
     if (std::abs(change) < tolerance || k == most_steps) {
+      CombinedState state = line.at(cell(x_progress));
       cell(x_progress) += change;
       state.value += change * state.gradient.col(x_progress);
       last_ = {cell, state};

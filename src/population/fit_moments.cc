@@ -66,6 +66,15 @@ class MomentSearch {
   enum class Part { means, scatter };
   enum class Held { without, with_means };
 
+  /// A step that leads on is where the next one begins: slopes with it cost less than the model once more.
+  const MomentSlopes& slopes_at(const VectorXd& parameters) {
+    if (slopes_.by_parameter.empty() || parameters != place_of_slopes_) {
+      slopes_ = model_.slopes(parameters);
+      place_of_slopes_ = parameters;
+    }
+    return slopes_;
+  }
+
   std::vector<int> parameters_of(Part part) const {
     const int first = part == Part::means ? 0 : model_.means(),
               last = part == Part::means ? model_.means() : int(found_.parameters.size());
@@ -107,10 +116,10 @@ class MomentSearch {
   /// By Fisher's scoring, damped as far as it does not lead on, of those that are not held at a bound. False without a
   /// minimum.
   bool minimise(Part part) {
-    double damping = first_damping, loss = loss_of(part, model_.at(found_.parameters));
+    double damping = first_damping, loss = loss_of(part, slopes_at(found_.parameters).there);
     for (int k = 0; k < most_steps_of_turn && std::isfinite(loss); ++k) {
       settings_.watch.go_on();
-      const MomentSlopes slopes = model_.slopes(found_.parameters);
+      const MomentSlopes& slopes = slopes_at(found_.parameters);
       const std::vector<int> free = free_of(part, slopes);
       if (free.empty()) return true;
       const Direction d = direction(part, slopes, free);
@@ -148,7 +157,7 @@ class MomentSearch {
     VectorXd next = found_.parameters;
     next(free) += step;
     next = next.cwiseMax(settings_.least).cwiseMin(settings_.greatest);
-    const double there = loss_of(part, model_.at(next));
+    const double there = loss_of(part, slopes_at(next).there);
     if (!(there < loss)) return false;
     found_.parameters = next;
     loss = there;
@@ -168,7 +177,7 @@ class MomentSearch {
   Equations equations(Held held = Held::without) {
     settings_.watch.go_on();
     Equations e;
-    e.slopes = model_.slopes(found_.parameters);
+    e.slopes = slopes_at(found_.parameters);
     e.means = free_of(Part::means, e.slopes);
     if (held == Held::with_means) {
       e.means = parameters_of(Part::means);
@@ -213,8 +222,7 @@ class MomentSearch {
     const VectorXd before = found_.parameters;
     found_.parameters(e.free) += solve_dense(e.matrix, e.value);
     found_.parameters = found_.parameters.cwiseMax(settings_.least).cwiseMin(settings_.greatest);
-    const MomentSlopes there = model_.slopes(found_.parameters);
-    const bool leads_on = there.there.mean.allFinite() && distance(equations()) < moved / 2;
+    const bool leads_on = slopes_at(found_.parameters).there.mean.allFinite() && distance(equations()) < moved / 2;
     if (!leads_on) found_.parameters = before;
     return leads_on;
   }
@@ -264,6 +272,8 @@ class MomentSearch {
   const MatrixXd& events_;
   const MomentSettings& settings_;
   MatrixXd weight_;  ///< inverse of the covariance of the events
+  VectorXd place_of_slopes_;
+  MomentSlopes slopes_;
   MomentFit found_;
 };
 

@@ -56,15 +56,15 @@ std::variant<CellShape, NoShape> CombinedShapes::at(CellCoordinates cell, double
   if (!(cell(x_axial) >= box.least(x_axial) && cell(x_axial) <= box.greatest(x_axial)))
     return NoShape::outside_tensions;
   const double low = box.least(x_progress), high = box.greatest(x_progress);
+  CellLine line = between_.line(cell);
   const auto excess = [&](double progress) {
-    cell(x_progress) = progress;
-    const CombinedState state = between_.at(cell);
-    return ValueAndSlope{state.value(log_stiffness_row) - log_stiffness, state.gradient(log_stiffness_row, x_progress)};
+    const CellFunction found = line.log_stiffness(progress);
+    return ValueAndSlope{found.value - log_stiffness, found.gradient(x_progress)};
   };
   if (excess(low).value < 0) return NoShape::too_stiff;
   if (excess(high).value > 0) return NoShape::too_soft;
   cell(x_progress) = bracketed_newton(excess, low, high, (low + high) / 2, false, 1e-12);
-  if (!between_.at(cell).inside) return NoShape::too_soft;  // all branches begin alike but end one by one
+  if (!between_.is_inside(cell)) return NoShape::too_soft;  // all branches begin alike but end one by one
   return branches_.empty() ? by_modes(between_.at(cell)) : blended(cell);
 }
 

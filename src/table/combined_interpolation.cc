@@ -68,7 +68,7 @@ CombinedInterpolation::Curve CombinedInterpolation::curve_of(const CombinedBranc
     const double flow = is_elongated() ? progress_of_unit / stiffness : value(deformation), place = std::log(flow);
     const double place_slope = is_elongated() ? -1 : slope(deformation) / flow;  // over ln S
     if (!(flow > 0 && place_slope < 0) || (!curve.place.empty() && place <= curve.place.back())) break;
-    Row g, g_slope;
+    Row g = Row::Zero(), g_slope = Row::Zero();  // zero in what is padded
     const auto scaled = [&](int row, double number, double number_slope) {
       const double unit = std::pow(flow, growth(row));
       g(row) = number / unit;
@@ -189,22 +189,6 @@ bool CombinedInterpolation::axial_reaches(int axial, const CellCoordinates& cell
          (ratios_.size() == 1 || sheet_reaches(sheet_of(axial, below + 1), cell));
 }
 
-// Beyond its ends straight on.
-std::pair<CombinedInterpolation::Row, CombinedInterpolation::Row> CombinedInterpolation::along(const Curve& branch,
-                                                                                               double progress) {
-  if (progress < branch.place.front() || progress > branch.place.back()) {
-    const auto end = progress > branch.place.front() ? branch.place.size() - 1 : 0;
-    const auto& [value, slope] = branch.samples[end];
-    return {value + (progress - branch.place[end]) * slope, slope};
-  }
-  const auto k = std::size_t(interval_of(branch.place, progress));
-  const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
-  const auto &a = branch.samples[k], &b = branch.samples[k + 1];
-  const Row slope_a = h * a.slope, slope_b = h * b.slope;
-  return {hermite(t)(a.value, b.value, slope_a, slope_b),
-          hermite_slope(t)(a.value, b.value, slope_a, slope_b) * (1 / h)};
-}
-
 CellFunction CombinedInterpolation::end(const Curve& branch) const {
   return {branch.is_own ? branch.place.back() : no_branch};
 }
@@ -221,73 +205,39 @@ CellFunction CombinedInterpolation::axial_end(int axial, const CellCoordinates& 
   return between_nodes(ratios_, cell, x_ratio, [&](int i) { return sheet_end(sheet_of(axial, i), cell); });
 }
 
-std::vector<CombinedInterpolation::CurveWeight> CombinedInterpolation::curve_weights(
-    const CellCoordinates& cell) const {
+CombinedInterpolation::CurveWeights CombinedInterpolation::curve_weights(const CellCoordinates& cell) const {
   const double progress = cell(x_progress);
   const AxisPolynomials by_axial(axial_ratios_, cell, x_axial), by_ratio(ratios_, cell, x_ratio),
       by_fraction(fractions_, cell, x_fraction), by_radius(log_radii_, cell, x_radius);
-  std::vector<CurveWeight> all;
+  CurveWeights weights{{}, HUGE_VAL};
+  auto& all = weights.all;
   all.reserve(256);  // of four nodes of each of the four axes
+  const auto part_until = [&](const CellFunction& end) {
+    weights.last_progress = std::min(weights.last_progress, end.value);
+    return part_of(end, progress);
+  };
   const auto add_radii = [&](int sheet, int fraction, const CellFunction& of_row) {
-    const auto part = [&](int i) { return part_of(end(curve(sheet, fraction, i)), progress); };
+    const auto part = [&](int i) { return part_until(end(curve(sheet, fraction, i))); };
     for (const auto& [radius, of_radius] : by_radius.weights(part))
       if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
         all.push_back({&found, of_row * of_radius});
   };
   const auto add_sheet = [&](int sheet, const CellFunction& of_sheet) {
-    const auto part = [&](int j) { return part_of(end(sheet, j, cell), progress); };
+    const auto part = [&](int j) { return part_until(end(sheet, j, cell)); };
     for (const auto& [fraction, of_fraction] : by_fraction.weights(part))
       add_radii(sheet, fraction, of_sheet * of_fraction);
   };
-  for (const auto& [axial, of_axial] : by_axial.weights([&](int i) { return part_of(axial_end(i, cell), progress); })) {
-    const auto part = [&, axial = axial](int i) { return part_of(sheet_end(sheet_of(axial, i), cell), progress); };
+  for (const auto& [axial, of_axial] : by_axial.weights([&](int i) { return part_until(axial_end(i, cell)); })) {
+    const auto part = [&, axial = axial](int i) { return part_until(sheet_end(sheet_of(axial, i), cell)); };
     for (const auto& [ratio, of_ratio] : by_ratio.weights(part)) add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
   }
-  return all;
+  return weights;
 }
 
 bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
   if (!((cell - box_.least).array() >= -1e-12).all() || !((box_.greatest - cell).array() >= -1e-12).all()) return false;
   const int below = interval_of(axial_ratios_, cell(x_axial));
   return axial_reaches(below, cell) && (!is_elongated() || axial_reaches(below + 1, cell));
-}
-
-std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& cell) const {
-  if (!is_inside(cell)) return {};
-  std::vector<BranchWeight> all;
-  const double progress = cell(x_progress);
-  for (const auto& [curve, weight] : curve_weights(cell)) {
-    const Row value = along(*curve, progress).first;
-    all.push_back(
-        {curve->branch, weight.value, std::exp(value(log_stiffness_row) - growth(log_stiffness_row) * progress)});
-  }
-  return all;
-}
-
-CombinedState CombinedInterpolation::at(const CellCoordinates& cell) const {
-  Row sum = Row::Zero();
-  Eigen::Matrix<double, row_count, coordinate_count> gradient =
-      Eigen::Matrix<double, row_count, coordinate_count>::Zero();
-  for (const auto& [curve, weight] : curve_weights(cell)) {
-    const auto [value, slope] = along(*curve, cell(x_progress));
-    sum += weight.value * value;
-    gradient += value * weight.gradient.transpose();
-    gradient.col(x_progress) += weight.value * slope;
-  }
-  // Back from what hardly varies to what is asked for.
-  CombinedState state{sum, gradient, is_inside(cell)};
-  for (int row = log_area_row; row < row_count; ++row) {
-    const double power = growth(row), unit = std::exp(power * cell(x_progress));
-    state.value(row) *= unit;
-    state.gradient.row(row) *= unit;
-    state.gradient(row, x_progress) += power * state.value(row);
-  }
-  state.value(log_stiffness_row) -= growth(log_stiffness_row) * cell(x_progress);
-  state.gradient(log_stiffness_row, x_progress) -= growth(log_stiffness_row);
-  state.value(log_area_row) += std::log(std::numbers::pi) + 2 * cell(x_radius);
-  state.gradient(log_area_row, x_radius) += 2;
-  state.value(moment_ratio_row) += 1;
-  return state;
 }
 
 }  // namespace rheocyte

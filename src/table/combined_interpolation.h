@@ -1,6 +1,7 @@
 // Stiffness and shape of a combined cell anywhere between the branches of its table, with exact derivatives.
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct BranchWeight {
   double stiffness_kPa = 0;  ///< of the branch at the state's progress
 };
 
+class CellLine;
+
 /// Cubics along the branches in ln of the progress, of quantities that hardly vary there; between the branches
 /// polynomials through up to four radii, four fractions, four tensions of the cortex and four axial ratios. Where a
 /// branch ends it goes straight on, and farther and farther beyond its end it counts less and less: nothing jumps
@@ -52,6 +55,8 @@ class CombinedInterpolation {
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
+  /// All cells with these coordinates but the progress. The table must outlive it.
+  CellLine line(const CellCoordinates& cell) const;
   /// The branches of which `at` makes a state, for whatever else is known of them at this progress or, of those that
   /// count little, at their ends before it; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
@@ -63,7 +68,10 @@ class CombinedInterpolation {
   bool is_elongated() const { return axial_ratios_.size() > 1; }
 
  private:
-  using Row = Eigen::Matrix<double, row_count, 1>;
+  friend CellLine;
+  /// As long as whole packets of the processor, without which Eigen takes one number at a time.
+  static constexpr int padded_rows = (row_count + 3) / 4 * 4;
+  using Row = Eigen::Matrix<double, padded_rows, 1>;
   /// Scaled values and slopes over ln of the progress.
   struct Curve {
     int branch = -1;      ///< of the table
@@ -81,6 +89,16 @@ class CombinedInterpolation {
     const Curve* curve;
     CellFunction weight;
   };
+  struct CurveWeights {
+    std::vector<CurveWeight> all;
+    double last_progress;  ///< as far as weights are the same, if it is not before the cell's progress
+  };
+  /// Of the first so many rows.
+  template <int rows>
+  struct Sum {
+    Eigen::Matrix<double, rows, 1> value = Eigen::Matrix<double, rows, 1>::Zero();
+    Eigen::Matrix<double, rows, coordinate_count> gradient = Eigen::Matrix<double, rows, coordinate_count>::Zero();
+  };
 
   /// The power of the progress with which a row grows at first; what is left varies little. Of the
   /// stiffness, that of one over the progress.
@@ -92,10 +110,14 @@ class CombinedInterpolation {
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
   const Curve& curve(int sheet, int fraction, int radius) const;
-  /// Value, and slope over ln of the progress.
-  static std::pair<Row, Row> along(const Curve& branch, double progress);
+  /// Value, and slope over ln of the progress, of the first rows.
+  template <int rows>
+  static std::pair<Eigen::Matrix<double, rows, 1>, Eigen::Matrix<double, rows, 1>> along(const Curve& branch,
+                                                                                         double progress);
+  template <int rows>
+  static Sum<rows> sum_at(double progress, const CurveWeights& weights);
   /// All curves of which a cell is a weighted sum. What a branch counts falls smoothly to nothing beyond its end.
-  std::vector<CurveWeight> curve_weights(const CellCoordinates& cell) const;
+  CurveWeights curve_weights(const CellCoordinates& cell) const;
   /// The progress at which branches end: of one, and linearly between two radii, then two fractions, then two tensions.
   CellFunction end(const Curve& branch) const;
   CellFunction end(int sheet, int fraction, const CellCoordinates& cell) const;
@@ -110,6 +132,22 @@ class CombinedInterpolation {
   std::vector<double> radii_, log_radii_, fractions_, ratios_, axial_ratios_;  ///< of the sheets; one axial ratio: zero
   std::vector<Curve> curves_;  ///< radius by radius, fraction by fraction, sheet by sheet
   CellBox box_;
+};
+
+/// Cells that differ in their progress alone: where one is sought among them, most have the same weights of branches.
+class CellLine {
+ public:
+  CellLine(const CombinedInterpolation& table, const CellCoordinates& cell) : table_(table), cell_(cell) {}
+  /// ln(S / kPa).
+  CellFunction log_stiffness(double progress);
+  CombinedState at(double progress);
+
+ private:
+  void go_to(double progress);
+
+  const CombinedInterpolation& table_;
+  CellCoordinates cell_;
+  CombinedInterpolation::CurveWeights weights_{{}, -HUGE_VAL};
 };
 
 }  // namespace rheocyte

@@ -26,8 +26,15 @@ class GridMapOf : public testing::Test {
                       {{&e.modulus, 1}, {&e.error, 1}, {&e.state, 1}});
     return e;
   }
-  TableSpec spec_ = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
-  GridMap modulus_{make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value()};
+  static GridContent make_content() {
+    const TableSpec spec = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
+    return make_stiffness_grid(spec, test::invented_branches(spec), "test").value();
+  }
+  static const GridContent& content() {
+    static const GridContent made = make_content();
+    return made;
+  }
+  GridMap modulus_{content()};
 };
 
 TEST_F(GridMapOf, ScalesLikeTheEquations) {
@@ -111,9 +118,9 @@ TEST_F(GridMapOf, EventsWithoutAModulusHaveAReason) {
 }
 
 TEST_F(GridMapOf, AGridOfShellsIsRefused) {
-  auto content = make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value();
-  content.origin.is_shell = true;
-  EXPECT_THROW(GridMap{content}, UserError);
+  GridContent of_shells = content();
+  of_shells.origin.is_shell = true;
+  EXPECT_THROW(GridMap{of_shells}, UserError);
 }
 
 }  // namespace

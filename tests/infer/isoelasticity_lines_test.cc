@@ -123,8 +123,15 @@ TEST(PublishedLines, AreMetByThoseOfTheirTable) {
 
 class GridLines : public testing::Test {
  protected:
-  TableSpec spec_ = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
-  GridMap map_{make_stiffness_grid(spec_, test::invented_unstable_branches(spec_), "test").value()};
+  static GridMap make_map() {
+    const TableSpec spec = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
+    return GridMap(make_stiffness_grid(spec, test::invented_unstable_branches(spec), "test").value());
+  }
+  static const GridMap& map() {
+    static const GridMap made = make_map();
+    return made;
+  }
+  const GridMap& map_ = map();
 };
 
 TEST_F(GridLines, LieWhereTheClosedFormHasTheirModulus) {

@@ -19,9 +19,15 @@ class ShapeMapOf : public testing::Test {
     shapes_.compare(conditions, {{&area, 1}, {&deformation, 1}, {}}, {&ratio, 1}, {&e, 1});
     return e;
   }
-  TableSpec spec_ = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
-  GridMap map_{make_stiffness_grid(spec_, test::invented_branches(spec_), "test").value()};
-  const ShapeMap& shapes_ = *map_.shapes();
+  static GridMap make_map() {
+    const TableSpec spec = parse_table_spec(test::short_spec, "spec.toml", std::vector<std::string>{"table.radii=40"});
+    return GridMap(make_stiffness_grid(spec, test::invented_branches(spec), "test").value());
+  }
+  static const GridMap& map() {
+    static const GridMap made = make_map();
+    return made;
+  }
+  const ShapeMap& shapes_ = *map().shapes();
 };
 
 TEST_F(ShapeMapOf, ACellOfTheTableHasNoExcessAndIsNotFlagged) {

@@ -40,6 +40,16 @@ class TableCommand : public testing::Test {
   Ended make(const fs::path& output, std::map<std::string, std::string> environment = {}) const {
     return run({command(output), environment});
   }
+  /// The table that `make` leaves, which is computed once for all tests.
+  void copy_made(const fs::path& output) const {
+    static const TemporaryFolder folder;
+    const fs::path made = folder.path() / "made";
+    if (!fs::exists(made)) {
+      const Ended ended = make(made);
+      ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    }
+    fs::copy(made, output, fs::copy_options::recursive);
+  }
 
   TemporaryFolder folder_;
 };
