@@ -8,8 +8,17 @@
 
 namespace rheocyte {
 
-/// Without pixels, in the channel and flow of the table; the stiffness is the effective modulus. `tension_Pa` is that
-/// in the recording's flow. Nothing if the table has no cells under such a tension.
+/// Of the same cells, without pixels, in the channel and flow of the table; what grids call the stiffness is the
+/// effective modulus in one, and S = E + E2D / r0 in the other.
+struct GridsUnderTension {
+  GridContent effective_modulus, stiffness;
+};
+
+/// `tension_Pa` is that in the recording's flow. Nothing if the table has no cells under such a tension.
+std::optional<GridsUnderTension> grids_under_tension(const ProportionedCells& cells, const Sight& sight,
+                                                     double tension_Pa);
+
+/// The effective modulus alone.
 std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa);
 
 }  // namespace rheocyte
