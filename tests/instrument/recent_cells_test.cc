@@ -31,8 +31,8 @@ TEST(RecentCells, AnotherThreadReadsWholeCells) {
   std::jthread adding([&] {
     for (int i = 0; goes_on; ++i) add(cells, i % 1'000'000);
   });
-  std::size_t read = 0;
-  for (int k = 0; k < 3000; ++k) {
+  constexpr std::size_t enough = 100'000;
+  for (std::size_t read = 0; read < enough;) {
     EventFigures found;
     cells.collect(found);
     read += found.area_um2.size();
@@ -42,7 +42,6 @@ TEST(RecentCells, AnotherThreadReadsWholeCells) {
     }
   }
   goes_on = false;
-  EXPECT_GT(read, 0U);
 }
 
 TEST(RecentCells, RedCellsAndMissingNumbersDoNotCount) {

@@ -105,7 +105,7 @@ class SameNumbers : public testing::Test {
     const Recording recording(file);
     const ModulusTables tables("");
     Extraction extraction(recording, options(settings), tables);
-    if (!medium) ASSERT_TRUE(extraction.take_tension(cell_under(tension_Pa)));
+    ASSERT_TRUE(medium || extraction.take_tension(cell_under(tension_Pa)));
     const Opened opened(settings, std::uint32_t(masks.size.width), std::uint32_t(masks.size.height));
     std::vector<rheocyte_cell_result> cells(masks.count);
     const rheocyte_cell_masks all{
@@ -161,15 +161,15 @@ TEST_F(SameNumbers, OfStoredFeaturesOfRealCells) {
 /// Cells with a cortex under a known axial tension, drawn by the camera of `rheocyte synth` from another table.
 class OfVirtualCells : public SameNumbers {
  protected:
-  static constexpr double tension_Pa = 600, stiffness_kPa = 1 + 12 / 6.2;
+  static constexpr double tension_Pa = 180, stiffness_kPa = 0.2 + 2.4 / 6.2;
 
   OfVirtualCells() {
     auto spec = parse_synth_spec(
         "[recording]\ncells = 1100\nseed = 3\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
-        "viscosity_mPas = 8\naxial_tension_Pa = {mean = 600}\n[cell]\nkind = \"combined\"\n"
+        "viscosity_mPas = 8\naxial_tension_Pa = {mean = 180}\n[cell]\nkind = \"combined\"\n"
         "radius_um = {mean = 6.2, sd = 0.3}\n[cell.bulk]\n"
-        "young_modulus_kPa = {mean = 1, sd = 0.1, distribution = \"lognormal\"}\n[cell.cortex]\n"
-        "modulus_mN_per_m = {mean = 12, sd = 1, distribution = \"lognormal\"}\ntension_ratio = {mean = 0.6}\n",
+        "young_modulus_kPa = {mean = 0.2, sd = 0.02, distribution = \"lognormal\"}\n[cell.cortex]\n"
+        "modulus_mN_per_m = {mean = 2.4, sd = 0.2, distribution = \"lognormal\"}\ntension_ratio = {mean = 0.6}\n",
         "spec.toml");
     const auto shapes = virtual_cells(spec, fs::path(folder_ / "").parent_path());
     write_virtual_recording(spec, *shapes, {"test", "line"}, folder_ / "virtual.rtdc", [](double) {});
@@ -210,8 +210,10 @@ TEST_F(OfVirtualCells, TheTensionOfTheSetUpIsThatOfTheRecordingAndOfTheCells) {
   options.measuring.viscosity_mPas = viscosity_mPas;
   Extraction extraction(recording, options, tables);
   extraction.compute(0, masks_.count);
-  const EffectiveCell found = extraction.summary().shapes.effective;
-  ASSERT_TRUE(found.is_found());
+  const ExtractSummary summary = extraction.summary();
+  const EffectiveCell& found = summary.shapes.effective;
+  ASSERT_TRUE(found.is_found()) << summary.shapes.text() << " " << tension.value_Pa << " +- " << tension.error_Pa << " +- "
+                                << tension.common_error_Pa << " E_eff " << tension.median_effective_modulus_kPa;
   EXPECT_TRUE(is_same(tension.value_Pa, found.axial_tension_Pa.value));
   EXPECT_TRUE(is_same(tension.error_Pa, found.axial_tension_Pa.error));
   EXPECT_TRUE(is_same(tension.common_error_Pa, found.axial_tension_Pa.common_error));
