@@ -1,6 +1,7 @@
 // What the handles of the C interface point to. A number shows whether a pointer is one of them.
 #pragma once
 #include <cstdint>
+#include <memory>
 
 #include "instrument/worker.h"
 

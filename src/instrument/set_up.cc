@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "case/user_error.h"
 #include "extract/event_errors.h"

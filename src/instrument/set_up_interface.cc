@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
+#include <exception>
+#include <memory>
 #include <new>
 #include <string_view>
 

@@ -1,5 +1,6 @@
 // The words of the C interface.
 #include <array>
+#include <cstdint>
 
 #include "infer/modulus_state.h"
 #include "instrument/rheocyte_cell.h"

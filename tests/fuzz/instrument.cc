@@ -2,6 +2,7 @@
 // them.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -13,7 +14,13 @@ namespace {
 
 constexpr std::uint32_t most_width = 96, most_height = 64;
 
-rheocyte_cell_worker* open_worker() {
+/// With the set-up that it uses, both as long as the program.
+struct Handles {
+  rheocyte_cell_setup* set_up = nullptr;
+  rheocyte_cell_worker* worker = nullptr;
+};
+
+Handles opened() {
   rheocyte_cell_settings settings;
   rheocyte_cell_default_settings(&settings);
   settings.tables_folder = rheocyte::data_folder;
@@ -22,12 +29,11 @@ rheocyte_cell_worker* open_worker() {
   settings.flow_rate_ul_s = 0.04;
   settings.pixel_size_um = 0.34;
   settings.axial_tension_Pa = 200;
-  rheocyte_cell_setup* set_up = nullptr;
-  rheocyte_cell_worker* worker = nullptr;
-  if (rheocyte_cell_open(RHEOCYTE_CELL_ABI, &settings, &set_up, nullptr, 0) != 0 ||
-      rheocyte_cell_open_worker(set_up, most_width, most_height, 20, &worker) != 0)
+  Handles handles;
+  if (rheocyte_cell_open(RHEOCYTE_CELL_ABI, &settings, &handles.set_up, nullptr, 0) != 0 ||
+      rheocyte_cell_open_worker(handles.set_up, most_width, most_height, 20, &handles.worker) != 0)
     std::abort();
-  return worker;
+  return handles;
 }
 
 /// Takes numbers from the front of the bytes.
@@ -67,7 +73,8 @@ void check(std::int32_t status, const rheocyte_cell_result& cell) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static rheocyte_cell_worker* const worker = open_worker();
+  static const Handles handles = opened();
+  rheocyte_cell_worker* const worker = handles.worker;
   Bytes bytes{data, size};
   rheocyte_cell_result cell{};
   const auto kind = bytes.next<std::uint8_t>();

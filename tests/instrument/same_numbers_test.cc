@@ -212,8 +212,9 @@ TEST_F(OfVirtualCells, TheTensionOfTheSetUpIsThatOfTheRecordingAndOfTheCells) {
   extraction.compute(0, masks_.count);
   const ExtractSummary summary = extraction.summary();
   const EffectiveCell& found = summary.shapes.effective;
-  ASSERT_TRUE(found.is_found()) << summary.shapes.text() << " " << tension.value_Pa << " +- " << tension.error_Pa << " +- "
-                                << tension.common_error_Pa << " E_eff " << tension.median_effective_modulus_kPa;
+  ASSERT_TRUE(found.is_found()) << summary.shapes.text() << " " << tension.value_Pa << " +- " << tension.error_Pa
+                                << " +- " << tension.common_error_Pa << " E_eff "
+                                << tension.median_effective_modulus_kPa;
   EXPECT_TRUE(is_same(tension.value_Pa, found.axial_tension_Pa.value));
   EXPECT_TRUE(is_same(tension.error_Pa, found.axial_tension_Pa.error));
   EXPECT_TRUE(is_same(tension.common_error_Pa, found.axial_tension_Pa.common_error));
