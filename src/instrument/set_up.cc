@@ -8,7 +8,6 @@
 
 #include "case/user_error.h"
 #include "extract/event_errors.h"
-#include "infer/cells_under_tension.h"
 #include "instrument/measured_set_up.h"
 
 namespace rheocyte {
@@ -88,9 +87,7 @@ SetUp::SetUp(std::shared_ptr<const MeasuredSetUp> measured, const rheocyte_cell_
 void SetUp::take_tension(const ChannelFlow& flow) {
   auto grids =
       grids_under_tension(*measured_->proportioned().front(), {flow, measured_->tables.section()}, tension_.value_Pa);
-  if (!grids) return;
-  under_tension_.reset(
-      new UnderTension{GridMap(std::move(grids->effective_modulus)), GridMap(std::move(grids->stiffness))});
+  if (grids) under_tension_ = std::make_unique<const UnderTension>(*std::move(grids));
 }
 
 std::unique_ptr<SetUp> SetUp::refreshed(const EventFigures& cells) const {

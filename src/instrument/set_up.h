@@ -6,8 +6,10 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "extract/effective_cell.h"
+#include "infer/cells_under_tension.h"
 #include "infer/grid_map.h"
 #include "instrument/rheocyte_cell.h"
 
@@ -50,6 +52,8 @@ class SetUp {
 
  private:
   struct UnderTension {
+    explicit UnderTension(GridsUnderTension grids)
+        : effective_modulus(std::move(grids.effective_modulus)), stiffness(std::move(grids.stiffness)) {}
     GridMap effective_modulus, stiffness;
   };
 
