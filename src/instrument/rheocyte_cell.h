@@ -187,7 +187,7 @@ RHEOCYTE_CELL_API int32_t rheocyte_cell_get_tension(const rheocyte_cell_setup* s
 
 /** A set-up that is like `setup`, with the axial tension of the cells that these workers have seen lately under set-ups
  * with the settings of `setup` (rheocyte_cell_open_worker), by area, deformation and inertia ratio, as `rheocyte
- * extract` determines it for a recording of these cells. Takes some tenths of a second; allocates; meant for a thread of its
+ * extract` determines it for a recording of these cells. Takes tenths of a second; allocates; meant for a thread of its
  * own, while the workers continue. Errors leave `*refreshed` null. */
 RHEOCYTE_CELL_API int32_t rheocyte_cell_refresh(const rheocyte_cell_setup* setup, rheocyte_cell_worker* const* workers,
                                                 size_t count, rheocyte_cell_setup** refreshed, char* message,
