@@ -40,11 +40,6 @@ RecordingFacts facts_of(const Recording& recording, const ExtractSettings& setti
   return facts;
 }
 
-double at_1_mPas(ChannelFlow flow) {
-  flow.viscosity_mPas = 1;
-  return reynolds_number(buffer_density_kg_per_m3, flow);
-}
-
 }  // namespace
 
 RecordingLabels labels_of(const Metadata& metadata) {
@@ -60,7 +55,7 @@ EventReader::EventReader(const Recording& recording, const MeasuringOptions& opt
       features_(recording, shapes_),
       gates_(options.gates),
       facts_(facts_of(recording, settings_, shapes_, gates_)),
-      reynolds_at_1_mPas_(at_1_mPas(settings_.conditions.flow)) {
+      reynolds_at_1_mPas_(reynolds_at_1_mPas(settings_.conditions.flow)) {
   if (needs.outlines != OutlineUse::none && ShapeSource::has_outlines(recording))
     outlines_.emplace(recording, settings_.pixel_size_um);
   gates_.check(features_);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/case_keys.h"
 #include "case/joined.h"
 #include "case/refuse_path.h"
 #include "case/stripped.h"
@@ -25,8 +24,6 @@ struct Quantity {
   const char *key, *unit, *way_out;
   Range range;
 };
-
-Range range_of(std::string_view key) { return std::get<Number>(case_key(key).kind).range; }
 
 // Of what is no positive number; with a decimal comma, for example, the text states what is wrong.
 std::string what_is_stored(const Recording& recording, const std::string& key) {
@@ -165,8 +162,6 @@ std::vector<std::string> ExtractSettings::lines() const {
   if (!viscosity_varies()) lines.push_back(fmt::format("viscosity: {} mPa s", conditions.flow.viscosity_mPas));
   return lines;
 }
-
-MeasuredRanges measured_ranges() { return {range_of("channel.width_um"), range_of("flow.rate_ul_per_s"), {0.01, 10}}; }
 
 double pixel_size_um(const Recording& recording, const std::optional<double>& given, const char* way_out) {
   return quantity(recording, given, {"imaging:pixel size", "um", way_out, measured_ranges().pixel_size_um});

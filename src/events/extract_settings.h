@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "case/key.h"
+#include "events/measured_ranges.h"
 #include "events/options.h"
 #include "events/recording_temperature.h"
 #include "infer/modulus_map.h"
@@ -47,12 +47,6 @@ struct ExtractSettings {
   std::string temperature_text() const;  ///< "feature temp", "23 (metadata)", ""
   std::string range_text() const;        ///< for which the viscosity model was measured; there is a buffer (asserted)
 };
-
-/// What stored numbers can be; others have a unit that was mistaken.
-struct MeasuredRanges {
-  Range channel_width_um, flow_rate_ul_s, pixel_size_um;
-};
-MeasuredRanges measured_ranges();
 
 /// The size of a pixel that is given, else that of the metadata. UserError if it is missing or cannot be so; `way_out`
 /// names the options.

@@ -13,6 +13,11 @@ namespace rheocyte {
 
 /// Buffers have about the density of water.
 inline constexpr double buffer_density_kg_per_m3 = 1000;
+/// Of a flow whose viscosity were 1 mPa s; that of an event is this over its viscosity (mPa s).
+inline double reynolds_at_1_mPas(ChannelFlow flow) {
+  flow.viscosity_mPas = 1;
+  return reynolds_number(buffer_density_kg_per_m3, flow);
+}
 /// Up to here the liquid's inertia, which the tables do not hold, changes moduli by at most about 3 %.
 inline constexpr double max_reynolds_number = 3;
 /// Of the modulus, for each unit of the Reynolds number: between the 0.3 % of stiff and the 1.1 % of soft large cells

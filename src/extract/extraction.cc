@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/plausibility.h"
+#include "extract/event_errors.h"
 #include "infer/cells_under_tension.h"
 #include "infer/grid_map.h"
 #include "numeric/no_value.h"
@@ -136,27 +136,15 @@ void Extraction::collect() {
                      s.tilt, columns_.moduli.states, s.elongation.states, s.elongation.cells});
 }
 
-// What is known of it counts as an error of the modulus; events beyond that are flagged.
 void Extraction::add_inertia_error(const EstimatedModuli& moduli) {
-  for (std::size_t i = 0; i < moduli.state.size(); ++i) {
-    if (!has_modulus(moduli.state[i])) continue;
-    const double reynolds = events_.reynolds(i);
-    moduli.standard_error_kPa[i] =
-        std::hypot(moduli.standard_error_kPa[i], modulus_per_reynolds * reynolds * moduli.modulus_kPa[i]);
-    if (reynolds <= max_reynolds_number) continue;
-    moduli.state[i] = ModulusState::inertial;
-  }
+  for (std::size_t i = 0; i < moduli.state.size(); ++i)
+    rheocyte::add_inertia_error(events_.reynolds(i), moduli.modulus_kPa[i], moduli.standard_error_kPa[i],
+                                moduli.state[i]);
 }
 
-// Where the deformation or the asymmetry is lost in the scatter by pixels, the modulus could be any above some value.
 void Extraction::mark_unresolved(const EstimatedModuli& moduli) {
-  for (std::size_t i = 0; i < moduli.state.size(); ++i) {
-    if (!has_modulus(moduli.state[i]) ||
-        moduli.standard_error_kPa[i] <= max_relative_standard_error * moduli.modulus_kPa[i])
-      continue;
-    moduli.modulus_kPa[i] = moduli.standard_error_kPa[i] = no_value;
-    moduli.state[i] = ModulusState::unresolved;
-  }
+  for (std::size_t i = 0; i < moduli.state.size(); ++i)
+    rheocyte::mark_unresolved(moduli.modulus_kPa[i], moduli.standard_error_kPa[i], moduli.state[i]);
 }
 
 void Extraction::apply_gates() {

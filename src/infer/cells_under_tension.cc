@@ -22,7 +22,7 @@ constexpr std::size_t points_around = 4;
 
 /// Of a line of cells with one area under one tension, from stiff to soft.
 struct LinePoint {
-  double log_deformation, log_modulus;
+  double log_deformation, log_modulus, log_stiffness;
   CellCoordinates cell;
 };
 using Line = std::vector<LinePoint>;
@@ -119,7 +119,7 @@ class TensionedCells {
       const double deformation =
           state.value(deformation_row) + cells_.change_by_section(cell, sight_)(int(ShapeFeature::deformation));
       return LinePoint{std::log(std::max(deformation, std::numeric_limits<double>::min())),
-                       std::log(cells_.effective_modulus_kPa(cell)), cell};
+                       std::log(cells_.effective_modulus_kPa(cell)), state.value(log_stiffness_row), cell};
     }
     return {};
   }
@@ -134,8 +134,8 @@ struct RowValue {
   double log_modulus, slope;  ///< the latter over ln(deformation)
 };
 
-/// At rows of equal distance between the ends of a line.
-std::vector<RowValue> values_at_rows(const Line& line) {
+/// Of one of the numbers at rows of equal distance between the ends of a line.
+std::vector<RowValue> values_at_rows(const Line& line, double LinePoint::*number) {
   std::vector<RowValue> values;
   const double first = line.front().log_deformation, last = line.back().log_deformation;
   for (int row = 0; row < rows; ++row) {
@@ -145,8 +145,8 @@ std::vector<RowValue> values_at_rows(const Line& line) {
                                                   std::ssize(line) - std::ptrdiff_t(points_around));
     const auto around = std::span(line).subspan(std::size_t(start), points_around);
     const LinePoint &a = around[1], &b = around[2];
-    values.push_back({lagrange_value(around, height, &LinePoint::log_deformation, &LinePoint::log_modulus),
-                      (b.log_modulus - a.log_modulus) / (b.log_deformation - a.log_deformation)});
+    values.push_back({lagrange_value(around, height, &LinePoint::log_deformation, number),
+                      (b.*number - a.*number) / (b.log_deformation - a.log_deformation)});
   }
   return values;
 }
@@ -222,10 +222,21 @@ std::span<Line> long_ones(std::vector<Line>& lines) {
   return {first, std::find_if_not(first, lines.end(), is_long)};
 }
 
+/// The column of a number on a line of cells.
+void add_column(const Line& line, double LinePoint::*number, double accuracy, GridPatch& patch) {
+  patch.lower.push_back(line.front().log_deformation);
+  patch.upper.push_back(line.back().log_deformation);
+  patch.beyond.push_back(double(OutOfTable::too_soft));
+  for (const auto& [value, slope] : values_at_rows(line, number)) {
+    patch.log_stiffness.push_back(value);
+    patch.error.push_back(accuracy * std::max(std::abs(slope), 1.0));  // that of the deformation
+  }
+}
+
 }  // namespace
 
-std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa,
-                                              double pixel_size_um) {
+std::optional<GridsUnderTension> grids_under_tension(const ProportionedCells& cells, const Sight& sight,
+                                                     double tension_Pa, double pixel_size_um) {
   const TensionedCells tensioned(cells, sight, tension_Pa);
   GridContent grid;
   grid.origin = origin_of(cells.table().spec(), {});
@@ -239,21 +250,26 @@ std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, co
   const std::span<Line> lines = long_ones(all);
   if (lines.size() < 2) return {};
   if (pixel_size_um > 0) add_pixels_beyond_law({cells, sight, pixel_size_um}, lines);
-  GridPatch patch;
-  patch.rows = rows;
-  patch.first_column = int(lines.data() - all.data());
-  patch.columns = int(lines.size());
+  GridPatch moduli;
+  moduli.rows = rows;
+  moduli.first_column = int(lines.data() - all.data());
+  moduli.columns = int(lines.size());
+  GridPatch stiffnesses = moduli;
   for (const Line& line : lines) {
-    patch.lower.push_back(line.front().log_deformation);
-    patch.upper.push_back(line.back().log_deformation);
-    patch.beyond.push_back(double(OutOfTable::too_soft));
-    for (const auto& [log_modulus, slope] : values_at_rows(line)) {
-      patch.log_stiffness.push_back(log_modulus);
-      patch.error.push_back(cells.table().spec().accuracy * std::max(std::abs(slope), 1.0));  // that of the deformation
-    }
+    add_column(line, &LinePoint::log_modulus, cells.table().spec().accuracy, moduli);
+    add_column(line, &LinePoint::log_stiffness, cells.table().spec().accuracy, stiffnesses);
   }
-  grid.patches.push_back(std::move(patch));
-  return grid;
+  GridsUnderTension grids{grid, grid};
+  grids.effective_modulus.patches.push_back(std::move(moduli));
+  grids.stiffness.patches.push_back(std::move(stiffnesses));
+  return grids;
+}
+
+std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa,
+                                              double pixel_size_um) {
+  auto grids = grids_under_tension(cells, sight, tension_Pa, pixel_size_um);
+  if (!grids) return {};
+  return std::move(grids->effective_modulus);
 }
 
 }  // namespace rheocyte

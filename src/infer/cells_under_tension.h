@@ -8,10 +8,19 @@
 
 namespace rheocyte {
 
-/// In the channel and flow of the table; the stiffness is the effective modulus. `tension_Pa` is that in the
-/// recording's flow. Deformations are those that remain once a GridMap has subtracted its law of the pixels, which is
-/// that of round solids: elongated cells have 0.001 to 0.003 more. A pixel size of zero: without pixels. Nothing if the
-/// table has no cells under such a tension.
+/// Of the same cells in the channel and flow of the table; what grids call the stiffness is the effective modulus in
+/// one, and S = E + E2D / r0 in the other.
+struct GridsUnderTension {
+  GridContent effective_modulus, stiffness;
+};
+
+/// `tension_Pa` is that in the recording's flow. Deformations are those that remain once a GridMap has subtracted its
+/// law of the pixels, which is that of round solids: elongated cells have 0.001 to 0.003 more. A pixel size of zero:
+/// without pixels. Nothing if the table has no cells under such a tension.
+std::optional<GridsUnderTension> grids_under_tension(const ProportionedCells& cells, const Sight& sight,
+                                                     double tension_Pa, double pixel_size_um = 0);
+
+/// Only the effective modulus.
 std::optional<GridContent> grid_under_tension(const ProportionedCells& cells, const Sight& sight, double tension_Pa,
                                               double pixel_size_um = 0);
 

@@ -44,7 +44,8 @@ std::vector<std::array<std::int32_t, 3>> delaunay_triangles(std::span<const Plan
       std::array<std::int32_t, 3> corners{};
       std::size_t k = 0;
       vertexT *vertex = nullptr, **vertexp = nullptr;
-      FOREACHvertex_(facet->vertices) {
+      // Qhull's sets go on behind their last field.
+      FOREACHvertex_(facet->vertices) {  // NOLINT(clang-analyzer-security.ArrayBound)
         if (k < 3) corners[k] = qh_pointid(qh, vertex->point);
         ++k;
       }

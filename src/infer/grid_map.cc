@@ -19,6 +19,8 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t block_size = event_block_size;
+constexpr std::size_t group_size = 16;  ///< whole packets (whole_packets.h)
+using GroupColumn = Eigen::Array<double, group_size, 1>;
 
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
 double variance_by_pixels(const GridAnswer& answer, const SmoothEvents& smooth, Eigen::Index event) {
@@ -69,26 +71,31 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
 void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
                              const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
-  const Eigen::Index rows = whole_packets(count);
   SmoothEvents smooth;
-  EventColumn log_deformation, modulus;
-  std::array<GridAnswer, block_size> answers;
   remove_pixels(conditions, origin().flow, block, smooth);
-  // A deformation below zero is one that is too small, not one that is missing.
-  log_deformation.head(rows) = smooth.deformation.head(rows).max(0).log();
-  grid_.answer({smooth.log_area.data(), count}, {log_deformation.data(), count}, {answers.data(), count});
   const double factor = factor_per_mPas(conditions);
-  modulus.head(rows) = 0;
-  for (std::size_t i = 0; i < count; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
-  modulus.head(rows) = modulus.head(rows).exp();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const bool has = answers[i].reason == OutOfTable::none && std::isfinite(block.viscosity_mPas[i]);
-    const double value = has ? modulus[k] * factor * block.viscosity_mPas[i] : no_value;
-    const double variance = answers[i].error * answers[i].error + variance_by_pixels(answers[i], smooth, k);
-    estimates.modulus_kPa[i] = value;
-    estimates.standard_error_kPa[i] = value * std::sqrt(variance);
-    estimates.state[i] = answers[i].reason == OutOfTable::none && !has ? ModulusState::no_data : state_of(answers[i]);
+  std::array<GridAnswer, group_size> answers;  // of a few events: a single one is not slowed down by a block
+  for (std::size_t first = 0; first < count; first += group_size) {
+    const std::size_t in_group = std::min(group_size, count - first);
+    const auto row = static_cast<Eigen::Index>(first);
+    // A deformation below zero is one that is too small, not one that is missing.
+    const GroupColumn log_deformation = smooth.deformation.segment<group_size>(row).max(0).log();
+    grid_.answer({smooth.log_area.data() + first, in_group}, {log_deformation.data(), in_group},
+                 {answers.data(), in_group});
+    GroupColumn modulus = GroupColumn::Zero();
+    for (std::size_t i = 0; i < in_group; ++i) modulus[static_cast<Eigen::Index>(i)] = answers[i].log_stiffness;
+    modulus = modulus.exp();
+    for (std::size_t i = 0; i < in_group; ++i) {
+      const GridAnswer& answer = answers[i];
+      const double viscosity = block.viscosity_mPas[first + i];
+      const bool is_inside = answer.reason == OutOfTable::none, has = is_inside && std::isfinite(viscosity);
+      const double value = has ? modulus[static_cast<Eigen::Index>(i)] * factor * viscosity : no_value;
+      const double variance =
+          answer.error * answer.error + variance_by_pixels(answer, smooth, row + static_cast<Eigen::Index>(i));
+      estimates.modulus_kPa[first + i] = value;
+      estimates.standard_error_kPa[first + i] = value * std::sqrt(variance);
+      estimates.state[first + i] = is_inside && !has ? ModulusState::no_data : state_of(answer);
+    }
   }
 }
 

@@ -43,6 +43,13 @@ class ContourMeasurer {
   /// That of the outline that was measured last, if it has features.
   const Polygon& hull() const { return hull_polygon_; }
 
+  /// Memory for contours of so many points over so many columns: measuring then takes no more.
+  void reserve(std::size_t points, std::size_t columns) {
+    hull_.reserve(columns);
+    hull_polygon_.reserve(2 * columns + 1);
+    polygon_.reserve(points);
+  }
+
  private:
   PixelHull hull_;
   Polygon hull_polygon_, polygon_;

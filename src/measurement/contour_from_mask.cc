@@ -160,14 +160,23 @@ void ContourFinder::follow(const Run& start, PixelContour& contour) const {
   }
 }
 
+void ContourFinder::reserve(const ImageSize& largest) {
+  runs_.reserve(largest.height * ((largest.width + 1) / 2));
+  framed_.reserve((largest.width + 2) * (largest.height + 2));
+  contour_.reserve(most_outline_points(largest));
+  other_.reserve(most_outline_points(largest));
+}
+
 const PixelContour& ContourFinder::contour_of(const Mask& mask) {
   contour_.clear();
+  groups_ = 0;
   find_runs(mask);
   if (runs_.empty()) return contour_;
   connect_runs();
   copy_with_margin();
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     if (runs_[i].parent != static_cast<std::int32_t>(i)) continue;
+    ++groups_;
     follow(runs_[i], other_);
     if (other_.size() > contour_.size()) std::swap(contour_, other_);
   }

@@ -11,6 +11,11 @@ class ContourFinder {
   /// count), as a chain of pixels that starts at the leftmost pixel of its first row and runs with the cell on its
   /// left in a picture whose rows go down. Empty if the mask is empty. Valid until the next call.
   const PixelContour& contour_of(const Mask& mask);
+  /// Connected groups of pixels in the last mask.
+  std::size_t groups() const { return groups_; }
+
+  /// Memory for any mask that has no more rows and columns: contour_of() then takes no more.
+  void reserve(const ImageSize& largest);
 
  private:
   struct Run {
@@ -28,6 +33,13 @@ class ContourFinder {
   std::vector<std::uint8_t> framed_;  // what is set, inside a margin of one empty pixel: no neighbour is missing
   std::int32_t top_ = 0, left_ = 0, stride_ = 0;  // of the copy in the mask, without its margin; length of its rows
   PixelContour contour_, other_;
+  std::size_t groups_ = 0;
 };
+
+/// Points of an outline in a picture of this size at most: one for each edge between two pixels, or a pixel and the
+/// margin.
+inline std::size_t most_outline_points(const ImageSize& picture) {
+  return 2 * picture.pixels() + picture.width + picture.height;
+}
 
 }  // namespace rheocyte

@@ -15,6 +15,12 @@ class PixelHull {
   std::span<const PixelPoint> of(std::span<const PixelPoint> contour);
   std::span<const PixelPoint> points() const { return points_; }  ///< the last ones
 
+  /// Memory for chains over so many columns: of() then takes no more.
+  void reserve(std::size_t columns) {
+    columns_.reserve(columns);
+    points_.reserve(2 * columns + 1);
+  }
+
  private:
   struct Column {
     std::int32_t min_y, max_y;

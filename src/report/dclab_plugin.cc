@@ -8,7 +8,7 @@
 
 #include "events/extract_settings.h"
 #include "events/plausibility.h"
-#include "extract/extraction.h"
+#include "extract/event_errors.h"
 #include "infer/read_modulus_map.h"
 #include "measurement/pixel_errors.h"
 #include "shelf/modulus_tables.h"

@@ -23,6 +23,11 @@ class Polygon {
   template <class Corners>
   void assign(const Corners& corners);
   std::size_t corners() const { return corners_; }
+  /// Memory for so many corners: assign() then takes no more.
+  void reserve(std::size_t corners) {
+    x_.reserve(corners + block + 1);
+    y_.reserve(corners + block + 1);
+  }
   PolygonMoments moments() const;
   /// Rotation about the line y = `y` through each of the halves, then the mean.
   double volume_of_rotation(double y) const;

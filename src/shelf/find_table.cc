@@ -68,10 +68,10 @@ std::map<std::string, fs::path> installed_tables() {
 
 }  // namespace
 
-fs::path find_table(const std::string& wanted, const std::string& asked_by) {
+fs::path find_table(const std::string& wanted, const std::string& asked_by, const fs::path& folder) {
   std::error_code error;
   if (fs::path file = to_path(wanted); fs::exists(file, error)) return file;
-  auto tables = shipped_tables();
+  auto tables = shipped_tables(folder);
   tables.merge(installed_tables());
   if (const auto found = tables.find(wanted); found != tables.end()) return found->second;
   const auto names = names_in(tables);

@@ -45,10 +45,10 @@ const ModulusMap& ModulusTables::Table::ready() const {
   return *map;
 }
 
-ModulusTables::ModulusTables(const std::string& name, std::optional<Section> section)
-    : section_(section.value_or(Section::square)), given_(!name.empty()) {
+ModulusTables::ModulusTables(const std::string& name, std::optional<Section> section, std::filesystem::path folder)
+    : folder_(std::move(folder)), section_(section.value_or(Section::square)), given_(!name.empty()) {
   if (given_) {
-    const auto file = find_table(name);
+    const auto file = find_table(name, "--table", folder_);
     auto map = read_modulus_map(file);
     const TableOrigin& origin = map->origin();
     section_ = origin.section;
@@ -70,7 +70,7 @@ ModulusTables::ModulusTables(const std::string& name, std::optional<Section> sec
 void ModulusTables::add_shipped() {
   std::optional<std::string> cells;
   if (given_) cells = tables_.front().cells;
-  for (const auto& [identifier, file] : shipped_tables()) {
+  for (const auto& [identifier, file] : shipped_tables(folder_)) {
     if (given_ && identifier == tables_.front().identifier) continue;
     const GridHead head = read_grid_head(file).value_or(GridHead{});
     if (head.section != section_) continue;
@@ -122,7 +122,7 @@ const ModulusMap* ModulusTables::other(double flow_exponent) const {
 
 std::vector<const ModulusMap*> ModulusTables::others(double flow_exponent) const {
   if (shipped_.empty())
-    for (const auto& [identifier, file] : shipped_tables()) {
+    for (const auto& [identifier, file] : shipped_tables(folder_)) {
       const GridHead head = read_grid_head(file).value_or(GridHead{});
       shipped_.push_back({file, identifier, head.flow_exponent, cells_in_words(head.model, head.section)});
     }
@@ -149,10 +149,10 @@ ModulusTables::Elongated::Elongated(ElongatedContent content, std::unique_ptr<co
       measured(std::move(other)),
       liquid(solids, computed.get(), measured.get()) {}
 
-std::optional<ElongatedFile> elongated_file(double flow_exponent) {
+std::optional<ElongatedFile> elongated_file(double flow_exponent, const std::filesystem::path& folder) {
   const auto misfit = [&](double exponent) { return std::abs(exponent - flow_exponent); };
   std::optional<ElongatedFile> best;
-  for (const auto& [identifier, file] : shipped_elongated_tables()) {
+  for (const auto& [identifier, file] : shipped_elongated_tables(folder)) {
     const auto head = grid_head(first_bytes(file, grid_head_bytes).value_or(""));
     if (head && (!best || misfit(head->flow_exponent) < misfit(best->flow_exponent)))
       best = {file, head->flow_exponent};
@@ -179,11 +179,11 @@ const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
   if (section_ == Section::tube && own()) return nullptr;
   auto& found = elongated_[flow_exponent];
   if (found) return &found->liquid;
-  const auto best = elongated_file(flow_exponent);
+  const auto best = elongated_file(flow_exponent, folder_);
   if (!best) return nullptr;
   std::unique_ptr<const ModulusMap> computed, measured;
   if (std::abs(best->flow_exponent - flow_exponent) > flow_exponent_tolerance) {
-    const ModulusTables square({}, Section::square);
+    const ModulusTables square({}, Section::square, folder_);
     computed = read_modulus_map(square.file(best->flow_exponent));
     measured = read_modulus_map(square.file(flow_exponent));
   }
@@ -196,7 +196,7 @@ const ElongatedLiquid* ModulusTables::elongated(double flow_exponent) const {
 const ProportionedCells* ModulusTables::proportioned_table(std::string_view identifier) const {
   const auto read = proportioned_.find(identifier);
   if (read != proportioned_.end()) return read->second.get();
-  const auto shipped = shipped_combined_tables();
+  const auto shipped = shipped_combined_tables(folder_);
   const auto found = shipped.find(std::string(identifier));
   if (found == shipped.end()) return nullptr;
   auto cells = std::make_unique<const ProportionedCells>(read_combined_table(found->second));
@@ -216,7 +216,7 @@ const ShapeMap* ModulusTables::shapes(double flow_exponent) const {
   const ModulusMap& table = used(flow_exponent);
   if (table.shapes()) return table.shapes();
   if (!standard_) {
-    const auto shipped = shipped_tables();
+    const auto shipped = shipped_tables(folder_);
     const auto found = shipped.find(std::string(standard_table(section_)));
     if (found == shipped.end()) return nullptr;
     standard_ = read_modulus_map(found->second);

@@ -21,8 +21,8 @@ struct ElongatedFile {
   std::filesystem::path file;
   double flow_exponent;
 };
-/// That of the nearest liquid; none where none comes with the program.
-std::optional<ElongatedFile> elongated_file(double flow_exponent);
+/// That of the nearest liquid; none where none comes with the program. `folder` as in shipped_tables.h.
+std::optional<ElongatedFile> elongated_file(double flow_exponent, const std::filesystem::path& folder = {});
 
 /// The table of elongated cells that the user names: a file elongated_*.cbor, a folder of `rheocyte table` with one, or
 /// the identifier of one that comes with the program. UserError.
@@ -33,8 +33,9 @@ class ModulusTables {
  public:
   /// The table that the user names (as in find_table); if the name is empty those for a section that come with the
   /// program, of which there is at least one, else UserError. Without a section those of the square channel, or of the
-  /// tube where there are no others.
-  explicit ModulusTables(const std::string& name, std::optional<Section> section = {});
+  /// tube where there are no others. `folder`: of the tables that come with the program (shipped_tables.h).
+  explicit ModulusTables(const std::string& name, std::optional<Section> section = {},
+                         std::filesystem::path folder = {});
 
   /// For a medium with eta ~ (shear rate)^(n - 1) that thins the table whose liquid has its exponent n, if there is
   /// one; else the one of a Newtonian liquid, with the effective viscosity. A table that the user names is used always.
@@ -88,6 +89,7 @@ class ModulusTables {
   const Table* newtonian() const;
   const Table* matching(double flow_exponent) const;
 
+  std::filesystem::path folder_;
   Section section_;
   std::vector<Table> tables_;
   mutable std::vector<Table> shipped_;                  ///< all of them, once others are requested

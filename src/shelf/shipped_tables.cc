@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path tables_folder() { return supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder); }
+fs::path tables_folder(const fs::path& given = {}) {
+  return given.empty() ? supplied_folder("RHEOCYTE_TABLES", "../share/rheocyte/tables", data_folder) : given;
+}
 
 /// A name that is no table of this kind.
 [[noreturn]] void refuse(const std::string& wanted, std::string_view kind, std::string_view noun,
@@ -47,11 +49,17 @@ fs::path wanted_or_shipped(const fs::path& wanted, std::string_view kind, std::s
 
 }  // namespace
 
-std::map<std::string, fs::path> shipped_tables() { return table_files(tables_folder(), "grid"); }
+std::map<std::string, fs::path> shipped_tables(const fs::path& folder) {
+  return table_files(tables_folder(folder), "grid");
+}
 
-std::map<std::string, fs::path> shipped_elongated_tables() { return table_files(tables_folder(), "elongated"); }
+std::map<std::string, fs::path> shipped_elongated_tables(const fs::path& folder) {
+  return table_files(tables_folder(folder), "elongated");
+}
 
-std::map<std::string, fs::path> shipped_combined_tables() { return table_files(tables_folder(), "combined"); }
+std::map<std::string, fs::path> shipped_combined_tables(const fs::path& folder) {
+  return table_files(tables_folder(folder), "combined");
+}
 
 std::map<std::string, fs::path> shipped_dynamic_tables() { return table_files(tables_folder(), "dynamic"); }
 

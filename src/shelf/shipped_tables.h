@@ -6,14 +6,14 @@
 
 namespace rheocyte {
 
-/// Files grid_<identifier>.cbor by identifier, in share/rheocyte/tables beside an installed program or in the folder
-/// data of the sources; RHEOCYTE_TABLES in the environment names another folder.
-std::map<std::string, std::filesystem::path> shipped_tables();
+/// Files grid_<identifier>.cbor by identifier, in this folder; if it is empty in share/rheocyte/tables beside an
+/// installed program or in the folder data of the sources; RHEOCYTE_TABLES in the environment names another folder.
+std::map<std::string, std::filesystem::path> shipped_tables(const std::filesystem::path& folder = {});
 
 /// Also the files elongated_<identifier>.cbor of elongated cells.
-std::map<std::string, std::filesystem::path> shipped_elongated_tables();
+std::map<std::string, std::filesystem::path> shipped_elongated_tables(const std::filesystem::path& folder = {});
 /// Also the files combined_<identifier>.cbor of cells with bulk and cortex.
-std::map<std::string, std::filesystem::path> shipped_combined_tables();
+std::map<std::string, std::filesystem::path> shipped_combined_tables(const std::filesystem::path& folder = {});
 /// Also the files dynamic_<identifier>.cbor of cells on their way.
 std::map<std::string, std::filesystem::path> shipped_dynamic_tables();
 

@@ -2,6 +2,7 @@
 
 import gzip
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -35,6 +36,31 @@ class Installed(unittest.TestCase):
         self.assertGreater((pathlib.Path(self.folder.name) / "cell/picture.png").stat().st_size, 0)
         self.call("synth", examples / "recordings/virtual-cells.toml", "-o", "cells.rtdc", "--set", "recording.cells=50")
         self.assertIn("50 of 50 events", self.call("extract", "cells.rtdc").stdout)
+
+    def of_the_library(self, *command, **variables):
+        environment = {"PATH": "/usr/bin:/bin", "HOME": "/", "LD_LIBRARY_PATH": str(self.tree / "lib"), **variables}
+        return subprocess.run(command, env=environment, cwd=self.folder.name, check=True, capture_output=True,
+                              text=True).stdout
+
+    def test_the_library_for_instruments_is_found_with_its_tables(self):
+        source = self.tree / "share/doc/rheocyte/examples/instrument/ring_buffer.c"
+        found = {"PKG_CONFIG_PATH": str(self.tree / "lib/pkgconfig")}
+        if shutil.which("pkg-config") is None or shutil.which("cc") is None:
+            self.skipTest("there is no pkg-config, or no cc")
+        flags = shlex.split(self.of_the_library("pkg-config", "--cflags", "--libs", "rheocyte_cell", **found))
+        self.of_the_library("cc", source, *flags, "-lpthread", "-lm", "-o", "ring_buffer")
+        self.assertIn("100 cells, 0 failed", self.of_the_library("./ring_buffer", "100", "0"))
+
+    def test_cmake_finds_the_library_for_instruments(self):
+        folder = pathlib.Path(self.folder.name, "project")
+        folder.mkdir()
+        shutil.copy(self.tree / "share/doc/rheocyte/examples/instrument/ring_buffer.c", folder)
+        (folder / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.20)\nproject(ring LANGUAGES C)\nfind_package(rheocyte_cell REQUIRED)\n"
+            "add_executable(ring ring_buffer.c)\ntarget_link_libraries(ring rheocyte::cell pthread m)\n", "utf-8")
+        self.of_the_library("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.tree}")
+        self.of_the_library("cmake", "--build", folder / "build")
+        self.assertIn("100 cells, 0 failed", self.of_the_library(folder / "build/ring", "100", "0"))
 
     def test_every_command_has_a_page_and_is_completed(self):
         commands = [line.split()[0] for line in self.call("--help").stdout.split("Subcommands:")[1].splitlines()
