@@ -43,9 +43,9 @@ def test_every_sample_has_an_effective_modulus_by_all_of_its_events(lines):
 def test_nearly_every_event_has_an_effective_modulus_under_that_tension(lines):
     for name, line in lines.items():
         share = float(line["effective_modulus_share_percent"])
-        assert share > (55 if name.startswith("LatB") else 88), name
+        assert share > (50 if name.startswith("LatB") else 85), name  # the table in CellCarrier ends at d = 0.105 to 0.12
         of_events = float(line["effective_modulus_of_events_median_kPa"] or "nan")
-        assert abs(of_events / median(line) - 1) < 0.07, name
+        assert abs(of_events / median(line) - 1) < 0.05, name
         if name.startswith("LatB") and name.endswith("_0"):
             assert share > 98
 
