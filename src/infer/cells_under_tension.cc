@@ -15,8 +15,8 @@
 namespace rheocyte {
 namespace {
 
-constexpr int columns = 96, rows = 48;
-constexpr int places = 48;            ///< along a line of equal area
+constexpr int columns = 80, rows = 48;
+constexpr int places = 32;            ///< along a line of equal area
 constexpr double least_height = 0.5;  ///< of a column, in ln(deformation)
 constexpr std::size_t points_around = 4;
 
@@ -177,13 +177,13 @@ class PixelsBeyondLaw {
   }
 
  private:
-  static constexpr int nodes = 6, places = 200;
+  static constexpr int nodes = 6;
   /// Below this deformation cells are about round, and the excess is that in proportion.
   static constexpr double elongated = 0.02;
 
   double of(const CellCoordinates& cell) const {
-    const ShapeVector by_pixels = cells_.added(cell, sight_, pixel_size_um_, places).by_pixels.bias,
-                      seen = cells_.smooth_shape(cell, sight_) + by_pixels;
+    const ShapeVector smooth = cells_.smooth_shape(cell, sight_),
+                      by_pixels = cells_.mean_of_pixels(smooth, pixel_size_um_), seen = smooth + by_pixels;
     const double log_area_px = seen(int(ShapeFeature::area_um2)) - 2 * std::log(pixel_size_um_);
     const PixelErrors by_law = pixel_errors(log_area_px, seen(int(ShapeFeature::deformation)));
     return by_pixels(int(ShapeFeature::deformation)) - by_law.deformation_excess;

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "case/user_error.h"
-#include "infer/square_law.h"
 #include "measurement/shape_in_pixels.h"
 
 namespace rheocyte {
@@ -24,6 +23,7 @@ constexpr int mode_2 = feature_of_mode(2), mode_3 = feature_of_mode(3);
 /// the edge belong to a mask (extract/common_errors.h has the same parts of the deformation's).
 constexpr double left_of_picture = 0.39;
 constexpr int draws = 400;
+constexpr int rounds_of_section = 3;  // the change by the square hardly depends on the shape
 /// From which cells alike are looked for, in parts of the stiffness; those whose features cannot be distinguished at 90
 /// % and whose moduli differ by more than this logarithm count.
 constexpr std::array other_stiffnesses{0.35, 0.6, 1.7, 2.8};
@@ -95,30 +95,38 @@ double ProportionedCells::effective_modulus_kPa(const CellCoordinates& cell) con
   return rheocyte::effective_modulus_kPa(fit_.at_rest(), cell, between_.at(cell)).value;
 }
 
+CellInSquare ProportionedCells::in_square(const CellCoordinates& cell, const ShapeVector& smooth,
+                                          const Sight& sight) const {
+  return {
+      .radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 * std::numbers::inv_sqrtpi / sight.flow.width_um,
+      .mode_2 = smooth(mode_2),
+      .mode_3 = smooth(mode_3),
+      .cortex_fraction = cell(x_fraction),
+      .cortex_tension = cell(x_fraction) * cell(x_ratio),
+      .thinning = simulated_.exponent - sight.flow.exponent};
+}
+
+ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, const ShapeVector& in_tube,
+                                                 const Sight& sight, int rounds) const {
+  ShapeVector change = ShapeVector::Zero();
+  if (sight.section != Section::square) return change;
+  for (int round = 0; round < rounds; ++round) change = mean_change_by_square(in_square(cell, in_tube + change, sight));
+  return change;
+}
+
 ShapeErrors ProportionedCells::added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube,
                                                 const Sight& sight) const {
-  constexpr int rounds = 3;  // the change by the square hardly depends on the shape
-  ShapeErrors by_square;
-  if (sight.section != Section::square) return by_square;
-  for (int round = 0; round < rounds; ++round) {
-    const ShapeVector smooth = in_tube + by_square.bias;
-    by_square = change_by_square({.radius = std::exp(smooth(int(ShapeFeature::area_um2)) / 2) * 2 *
-                                            std::numbers::inv_sqrtpi / sight.flow.width_um,
-                                  .mode_2 = smooth(mode_2),
-                                  .mode_3 = smooth(mode_3),
-                                  .cortex_fraction = cell(x_fraction),
-                                  .cortex_tension = cell(x_fraction) * cell(x_ratio),
-                                  .thinning = simulated_.exponent - sight.flow.exponent});
-  }
-  return by_square;
+  if (sight.section != Section::square) return {};
+  const ShapeVector smooth = in_tube + change_by_section(cell, in_tube, sight, rounds_of_section - 1);
+  return change_by_square(in_square(cell, smooth, sight));
 }
 
 ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, const Sight& sight) const {
-  return added_by_section(cell, fit_.shape_of(cell, sight.flow), sight).bias;
+  return change_by_section(cell, fit_.shape_of(cell, sight.flow), sight, rounds_of_section);
 }
 
-ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um,
-                                                  int places) const {
+ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
+                                                  double pixel_size_um) const {
   const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
   ShapeErrors by_square = added_by_section(cell, in_tube, sight);
   by_square.covariance *= sight.error_factor * sight.error_factor;
@@ -126,9 +134,24 @@ ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, c
   const ShapeVector smooth = in_tube + by_square.bias;
   CellRandom random{1, 0, Purpose::picture};  // the same places for all recordings, whose ratios they leave alone
   const Eigen::MatrixX2d outline = outline_of(smooth);
-  ShapeErrors by_pixels = errors_in_pixels(outline, pixel_size_um, places, random);
+  ShapeErrors by_pixels = errors_in_pixels(outline, pixel_size_um, draws, random);
   add_lost_corners(smooth(int(ShapeFeature::deformation)) - outline_shape(outline).deformation, by_pixels);
   return {by_square, by_pixels};
+}
+
+ShapeVector ProportionedCells::mean_of_pixels(const ShapeVector& smooth, double pixel_size_um) const {
+  // Even more than random ones: multiples of two numbers that no small multiples bring near to whole ones (Roberts
+  // 2018).
+  constexpr int places = 64;
+  constexpr double along = 0.7548776662466927, across = 0.5698402909980532;
+  const auto part = [](double number) { return number - std::floor(number); };
+  const Eigen::MatrixX2d outline = outline_of(smooth);
+  const OutlineShape of_outline = outline_shape(outline);
+  ShapeErrors by_pixels{-shape_vector(of_outline), ShapeErrors{}.covariance};
+  for (int i = 0; i < places; ++i)
+    by_pixels.bias += features_in_pixels(outline, pixel_size_um, {part(i * along), part(i * across)}) / places;
+  add_lost_corners(smooth(int(ShapeFeature::deformation)) - of_outline.deformation, by_pixels);
+  return by_pixels.bias;
 }
 
 CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
@@ -190,7 +213,7 @@ ProportionedEstimate ProportionedCells::estimate(SeenFigure seen, const Sight& s
   for (int round = 0; round < rounds; ++round) {
     nearest = this->nearest(shape, sight.flow, tension, nearest ? &nearest->cell : nullptr);
     if (!nearest) return {};
-    errors = added(nearest->cell, sight, pixel_size_um, draws);
+    errors = added(nearest->cell, sight, pixel_size_um);
     shape.errors.bias = errors.by_square.bias + errors.by_pixels.bias;
   }
   const auto with_errors = [&](const Eigen::Matrix3d& covariance) {

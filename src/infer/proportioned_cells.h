@@ -8,6 +8,7 @@
 
 #include "infer/bulk_cortex_fit.h"
 #include "infer/rendered_errors.h"
+#include "infer/square_law.h"
 #include "table/combined_interpolation.h"
 
 namespace rheocyte {
@@ -48,17 +49,23 @@ class ProportionedCells {
   double effective_modulus_kPa(const CellCoordinates& cell) const;
   /// What the section of the channel adds to the features of a cell of the table, on average.
   ShapeVector change_by_section(const CellCoordinates& cell, const Sight& sight) const;
-  /// What the section and the pixels, at so many places on the camera, add to the features of a cell of the table.
-  struct Added {
-    ShapeErrors by_square, by_pixels;
-  };
-  Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um, int places) const;
+  /// What pixels add to the features of a smooth shape on average over all places on the camera.
+  ShapeVector mean_of_pixels(const ShapeVector& smooth, double pixel_size_um) const;
   /// Of a cell of the table, as it is seen without pixels.
   ShapeVector smooth_shape(const CellCoordinates& cell, const Sight& sight) const {
     return fit_.shape_of(cell, sight.flow) + change_by_section(cell, sight);
   }
 
  private:
+  /// Of a cell of the table with a shape that is seen.
+  CellInSquare in_square(const CellCoordinates& cell, const ShapeVector& smooth, const Sight& sight) const;
+  ShapeVector change_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight,
+                                int rounds) const;
+  /// What is added to the features of a cell of the table.
+  struct Added {
+    ShapeErrors by_square, by_pixels;
+  };
+  Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
   ShapeErrors added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight) const;
   /// The cell, or the last one of the table on the way there from a stiffer one.
   CellCoordinates held_inside(CellCoordinates cell) const;

@@ -18,6 +18,8 @@ constexpr std::array<Range, 6> ranges{{{0.40, 0.82}, {-0.06, 0.42}, {0, 0.12}, {
 
 using Places = std::array<double, ranges.size()>;
 
+constexpr int features = int(square_changes.size());  // the first ones
+
 /// Each from -1 to 1 in its range.
 Places places_of(const CellInSquare& cell) {
   Places places{cell.radius, cell.mode_2, cell.mode_3, cell.cortex_fraction, cell.cortex_tension, cell.thinning};
@@ -53,15 +55,23 @@ std::array<double, square_changes[0].size()> terms_of(const Places& places) {
 
 }  // namespace
 
-ShapeErrors change_by_square(const CellInSquare& cell) {
-  constexpr int features = int(square_changes.size());  // the first ones
+ShapeVector mean_change_by_square(const CellInSquare& cell) {
   const auto terms = terms_of(places_of(cell));
   const double mode_3 = std::clamp(cell.mode_3, ranges[2].least, ranges[2].greatest);
-  ShapeErrors change;
-  Eigen::Array<double, features, 1> left;
+  ShapeVector change = ShapeVector::Zero();
   for (int i = 0; i < features; ++i) {
     const auto& coefficients = square_changes[std::size_t(i)];
-    change.bias(i) = mode_3 * std::inner_product(terms.begin(), terms.end(), coefficients.begin(), 0.0);
+    change(i) = mode_3 * std::inner_product(terms.begin(), terms.end(), coefficients.begin(), 0.0);
+  }
+  return change;
+}
+
+ShapeErrors change_by_square(const CellInSquare& cell) {
+  const double mode_3 = std::clamp(cell.mode_3, ranges[2].least, ranges[2].greatest);
+  ShapeErrors change;
+  change.bias = mean_change_by_square(cell);
+  Eigen::Array<double, features, 1> left;
+  for (int i = 0; i < features; ++i) {
     const double of_change = is_odd_mode(i) ? left_of_odd_modes * change.bias(i) : 0;
     left(i) = std::hypot(mode_3 * square_left[std::size_t(i)], of_change, mode_3 > 0 ? error_between_branches : 0);
   }

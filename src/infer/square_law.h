@@ -25,5 +25,7 @@ inline constexpr double error_factor_of_other_laws = 6;
 /// bending stiffness keeps smooth, and how well that is known. Beyond the cells to which the law was fitted the nearest
 /// counts; modes beyond the seventh do not change.
 ShapeErrors change_by_square(const CellInSquare& cell);
+/// Only what is added.
+ShapeVector mean_change_by_square(const CellInSquare& cell);
 
 }  // namespace rheocyte
