@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "case/user_error.h"
+#include "extract/effective_words.h"
 #include "extract/event_errors.h"
 #include "instrument/measured_set_up.h"
 
@@ -28,19 +29,6 @@ rheocyte_cell_tension given_tension(double value_Pa) {
           0,
           is_known ? RHEOCYTE_CELL_TENSION_GIVEN : RHEOCYTE_CELL_TENSION_UNKNOWN,
           next_number()};
-}
-
-const char* words_of(EffectivePlace place) {
-  switch (place) {
-    case EffectivePlace::inside: return "inside the table";
-    case EffectivePlace::softer: return "softer than the cells of the table";
-    case EffectivePlace::longer: return "longer than the cells of the table";
-    case EffectivePlace::stiffer: return "stiffer or flatter than the cells of the table";
-    case EffectivePlace::other_size: return "smaller or larger than the cells of the table";
-    case EffectivePlace::ambiguous: return "such that cells of different stiffness have the same shape";
-    case EffectivePlace::unknown: break;
-  }
-  return "unknown";
 }
 
 /// Of cells that are computed together.
@@ -100,7 +88,7 @@ std::unique_ptr<SetUp> SetUp::refreshed(const EventFigures& cells) const {
                                        conditions.pixel_size_um);
   if (!found.is_found())
     throw NoTension(RHEOCYTE_CELL_NO_TENSION,
-                    fmt::format("the median cell is {}: no axial tension follows from it.", words_of(found.place)));
+                    fmt::format("no axial tension follows from the cells: {}", effective_place_text(found)));
   add_errors_of_model(measured_->reynolds, false, found);
   const Median& tension = found.axial_tension_Pa;
   return std::unique_ptr<SetUp>(
