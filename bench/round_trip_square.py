@@ -2,7 +2,7 @@
 """How well `rheocyte moduli` and `rheocyte population --model cortex` find cells that are solved in the square channel itself, by
 a table of the tube.
 
-    bench/round_trip_square.py TABLE FOLDER [--recordings 8] [--cells 24] [--places 6] [--program build/rheocyte]
+    bench/round_trip_square.py TABLE FOLDER [--recordings 8] [--cells 24] [--places 6] [--law neo-hookean]
 
 TABLE is a combined table of elongated cells (examples/tables/combined-elongated.toml). Each recording has cells with bulk,
 cortex and surface tension under one axial tension, their medians at random, in CellCarrier at 23 degC (a power-law
@@ -42,11 +42,11 @@ class Medians:
         self.young, self.cortex = np.exp(random.uniform(np.log([0.25, 1.4]), np.log([0.9, 3])))
         self.ratio, self.axial = random.uniform(0.2, 0.45), random.uniform(80, 300)
 
-    def cell(self, random):
+    def cell(self, random, law):
         young, cortex = self.young * np.exp(0.2 * random.normal()), self.cortex * np.exp(0.2 * random.normal())
         return {"radius_um": 6.4 * np.exp(0.05 * random.normal()),
                 "bulk": {"law": "neo-hookean", "young_modulus_kPa": young},
-                "cortex": {"law": "neo-hookean-reference", "modulus_mN_per_m": cortex, "bending_kBT": 2e3,
+                "cortex": {"law": law, "modulus_mN_per_m": cortex, "bending_kBT": 2e3,
                            "tension_mN_per_m": self.ratio * cortex}}
 
 
@@ -89,7 +89,7 @@ def recorded(number, options):
     random = np.random.default_rng([3, number])
     medians, masks, moduli = Medians(random), [], []
     for _ in range(5 * options.cells):
-        cell = medians.cell(random)
+        cell = medians.cell(random, options.law)
         outline = solved(cell, medians.axial)
         if outline is None:
             continue
@@ -136,6 +136,7 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--cells", type=int, default=24)
     parser.add_argument("--places", type=int, default=6)
+    parser.add_argument("--law", default="neo-hookean", help="of the cortex of the solved cells")
     parser.add_argument("--program", type=Path, default=Path("build/rheocyte"))
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)

@@ -32,7 +32,7 @@ struct ModuliFiles {
 /// All recordings of one call.
 class ModuliJob {
  public:
-  explicit ModuliJob(const ModuliOptions& options) : options_(options), table_(options) {}
+  explicit ModuliJob(const ModuliOptions& options) : options_(options), tables_(options) {}
 
   int run() {
     const auto tasks = tasks_of(options_.batch);
@@ -53,8 +53,8 @@ class ModuliJob {
   ModuliSummary work(const RecordingTask& task, const ModuliFiles& files, const TellProgress& report_progress) const {
     ModuliText text(files.events);
     const ModuliSummary summary =
-        moduli_of_recording(task.recording, options_, table_, threads_, text, report_progress);
-    write_for(summary_for(task), files.summary, moduli_json(task.recording, table_.name, summary));
+        moduli_of_recording(task.recording, options_, tables_, threads_, text, report_progress);
+    write_for(summary_for(task), files.summary, moduli_json(task.recording, tables_.name(), summary));
     return summary;
   }
 
@@ -67,7 +67,7 @@ class ModuliJob {
     }
     if (summary.with_stiffness() > 0) return true;
     tell(fmt::format("{}: no event {}has the shape of a cell of the table {}: {}.", name,
-                     summary.gates.empty() ? "" : "inside the gates ", table_.content.spec.identifier,
+                     summary.gates.empty() ? "" : "inside the gates ", tables_.computed().content.spec.identifier,
                      in_one_line(summary)));
     return false;
   }
@@ -79,7 +79,7 @@ class ModuliJob {
   static std::filesystem::path summary_for(const RecordingTask& task) { return task.result("_moduli.json"); }
 
   const ModuliOptions& options_;
-  ModuliTable table_;
+  ModuliTables tables_;
   int threads_ = 1;  ///< for each recording
 };
 

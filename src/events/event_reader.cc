@@ -53,7 +53,7 @@ EventReader::EventReader(const Recording& recording, const MeasuringOptions& opt
       settings_(extract_settings(options, needs.pixels, recording)),
       shapes_(recording, settings_.pixel_size_um),
       features_(recording, shapes_),
-      gates_(options.gates),
+      gates_(options.lifts_shape_gates ? Gates(options.gates).without_shapes() : Gates(options.gates)),
       facts_(facts_of(recording, settings_, shapes_, gates_)),
       reynolds_at_1_mPas_(reynolds_at_1_mPas(settings_.conditions.flow)) {
   if (needs.outlines != OutlineUse::none && ShapeSource::has_outlines(recording))

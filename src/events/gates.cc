@@ -30,6 +30,11 @@ std::pair<std::string, double> parsed(const std::string& text, const char* optio
   return {text.substr(0, sign), value};
 }
 
+/// Of features by dclab's names.
+bool is_of_shape(std::string_view feature) {
+  return feature == "deform" || feature == "circ" || feature == "emodulus" || feature.starts_with("inert_ratio");
+}
+
 }  // namespace
 
 Gates::Gates(const GateOptions& options) {
@@ -62,6 +67,24 @@ Gates::Limit& Gates::limit_of(const std::string& feature) {
   const auto found = std::ranges::find(limits_, feature, &Limit::feature);
   if (found != limits_.end()) return *found;
   return limits_.emplace_back(Limit{feature});
+}
+
+bool Gates::limit_shapes() const {
+  return std::ranges::any_of(limits_, [](const Limit& limit) { return is_of_shape(limit.feature); }) ||
+         std::ranges::any_of(polygons_, [](const PolygonGate& polygon) { return polygon.is_over(is_of_shape); });
+}
+
+Gates Gates::without_shapes() const {
+  Gates others = *this;
+  std::erase_if(others.limits_, [](const Limit& limit) { return is_of_shape(limit.feature); });
+  std::erase_if(others.polygons_, [](const PolygonGate& polygon) { return polygon.is_over(is_of_shape); });
+  for (const auto& polygon : polygons_)
+    if (polygon.is_over(is_of_shape))
+      if (const auto range = polygon.range_of_other(is_of_shape)) {
+        Limit& limit = others.limit_of(range->feature);
+        limit.min = std::max(limit.min, range->min), limit.max = std::min(limit.max, range->max);
+      }
+  return others;
 }
 
 std::string Gates::description() const { return description_without({}); }

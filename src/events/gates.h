@@ -19,6 +19,12 @@ class Gates {
   explicit Gates(const GateOptions& options);
 
   bool empty() const { return limits_.empty() && polygons_.empty() && !events_; }
+  /// Whether they limit something that the stiffness of a cell decides: its deformation, circularity, inertia ratios or
+  /// modulus, by itself or in a polygon.
+  bool limit_shapes() const;
+  /// The same without these limits; a polygon over one of these and another feature leaves the range of the other.
+  Gates without_shapes() const;
+
   /// "1 <= area_ratio <= 1.05", "12 chosen events"
   std::string description() const;
   /// The same without the limits of some features.

@@ -101,6 +101,17 @@ bool PolygonGate::holds(double x, double y) const {
   return is_inside;
 }
 
+bool PolygonGate::is_over(bool (*is_such)(std::string_view)) const { return is_such(x_.feature) || is_such(y_.feature); }
+
+std::optional<PolygonGate::Range> PolygonGate::range_of_other(bool (*is_such)(std::string_view)) const {
+  if (is_inverted_ || is_such(x_.feature) == is_such(y_.feature)) return {};
+  const bool is_x = !is_such(x_.feature);
+  const auto along = is_x ? &Corner::x : &Corner::y;
+  const auto [min, max] = std::ranges::minmax_element(corners_, {}, along);
+  const Axis& axis = is_x ? x_ : y_;
+  return Range{axis.feature, axis.value((*min).*along), axis.value((*max).*along)};
+}
+
 std::vector<PolygonGate::Corner> PolygonGate::outline_over(std::string_view x, std::string_view y) const {
   const bool is_swapped = x_.feature == y && y_.feature == x;
   if (!is_swapped && (x_.feature != x || y_.feature != y)) return {};

@@ -1,5 +1,6 @@
 // A polygon in the plane of two features, within which events are taken.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,14 @@ class PolygonGate {
   /// Whether the place lies within, by the number of edges to the right (even-odd); the lower end of an edge belongs to
   /// it, the upper one does not.
   bool holds(double x, double y) const;
+  /// Whether one of its features is such a one.
+  bool is_over(bool (*is_such)(std::string_view feature)) const;
+  struct Range {
+    std::string feature;
+    double min, max;
+  };
+  /// Of the corners, along the one feature that is none such; nothing if both are, or if events outside are taken.
+  std::optional<Range> range_of_other(bool (*is_such)(std::string_view feature)) const;
   /// Its corners as values of two features, with more of them along edges that are curved there; empty if it is one of
   /// other features.
   std::vector<Corner> outline_over(std::string_view x, std::string_view y) const;

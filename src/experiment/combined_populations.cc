@@ -9,6 +9,7 @@
 #include "case/joined.h"
 #include "case/to_path.h"
 #include "case/user_error.h"
+#include "shelf/square_section.h"
 
 namespace rheocyte {
 namespace {
@@ -210,18 +211,18 @@ std::vector<MeasureCheck> checks_of(const CombinedPopulation& found, const std::
 CombinedPopulations::CombinedPopulations(const PopulationOptions& options)
     : wanted_section_(options.section),
       outline_noise_um_(options.outline_noise_um.value_or(0)),
-      table_(moduli_options(options)),
-      moduli_(table_.between, table_.simulated, {features_of_contour(last_fitted_mode), true, 0}) {
+      tables_(moduli_options(options)) {
   if (!options.by.empty() && options.by != "asymmetry")
     throw UserError(
         fmt::format("rheocyte: --by {} and --model cortex contradict each other: bulk and cortex follow from "
                     "the whole outline. Leave --by out.",
                     options.by));
-  if (!table_.between.is_elongated() || table_.between.tension_ratios().size() < 2)
+  const CombinedInterpolation& table = tables_.computed().between;
+  if (!table.is_elongated() || table.tension_ratios().size() < 2)
     throw UserError(fmt::format(
         "rheocyte: --model cortex needs a combined table of elongated cells (table.axial_ratio) with several tensions "
         "of the cortex (table.tension_ratio), as the program's own; {} is none.",
-        table_.content.spec.identifier));
+        table.spec().identifier));
 }
 
 std::string CombinedPopulations::systematic_errors(std::span<const RecordingReport> recordings) const {
@@ -243,13 +244,15 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   r.fitted_events = cells.size();
   check_events_of_population(r);
   CombinedReport& combined = r.combined.emplace();
-  combined.section = section_seen(wanted_section_, events.made_of, table_.content.spec.base);
+  combined.section = section_seen(wanted_section_, events.made_of, tables_.computed().content.spec.base);
+  const ModuliTable& table = tables_.seen_in(combined.section, events.flow().exponent, events.made_of);
+  const BulkCortexFit moduli(table.between, table.simulated, {features_of_contour(last_fitted_mode), true, 0});
   combined.wall_stress_Pa = r.wall_stress_Pa();
-  const SeenPopulation seen{.sight = {events.flow(), combined.section, table_.section_error_factor()},
+  const SeenPopulation seen{.sight = {events.flow(), combined.section, table.section_error_factor()},
                             .pixel_size_um = events.pixel_size_um,
                             .log_area = log_area_gate(events.least_area_um2, events.greatest_area_um2),
                             .outline_noise = {.deviation = outline_noise_um_}};
-  combined.found = fit_combined_population(moduli_, seen, cells, watch);
+  combined.found = fit_combined_population(moduli, seen, cells, watch);
   const MomentFit& fit = combined.found.fit;
   if (!fit.is_found) {
     r.failure =
@@ -262,7 +265,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   count_beyond(combined.found, r);
   if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
   r.failure =
-      why_not_in_table(combined.found, moduli_.table(), scale_factors(moduli_.simulated(), events.flow()).length);
+      why_not_in_table(combined.found, moduli.table(), scale_factors(moduli.simulated(), events.flow()).length);
   if (!r.failure.empty()) return;
   const CellsBeyond& beyond = combined.found.beyond;
   refuse_most_beyond(PopulationQuantity::stiffness, bound_of_median(beyond.log_stiffness_of_last, beyond.all), r);
@@ -270,7 +273,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   tell(combined.found, combined, r);
   tell_bounds(fit, r);
   tell_beyond(r);
-  tell_stiff(combined.found, moduli_.table().box(), r);
+  tell_stiff(combined.found, moduli.table().box(), r);
   if (r.quantities.empty()) {
     r.failure = "the events do not determine all parameters of the population; more events help.";
     return;

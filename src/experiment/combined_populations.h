@@ -17,15 +17,14 @@ class CombinedPopulations : public PopulationModel {
   std::string_view elongation_text() const override {
     return "by one axial tension of the liquid in each recording, with a scatter between cells";
   }
-  std::string table(const PopulationEvents&) override { return table_.name; }
+  std::string table(const PopulationEvents&) override { return tables_.name(); }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
   void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
 
  private:
   std::optional<Section> wanted_section_;
   double outline_noise_um_;
-  ModuliTable table_;
-  BulkCortexFit moduli_;
+  ModuliTables tables_;
 };
 
 }  // namespace rheocyte

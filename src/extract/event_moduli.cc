@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/user_error.h"
-#include "shelf/shipped_tables.h"
 
 namespace rheocyte {
 
@@ -22,11 +20,6 @@ bool has_free_tension(const ModuliOptions& options, const ModuliTable& table) {
   return options.fit_tension || table.between.is_elongated();
 }
 
-bool is_neo_hookean(const Cell& cell) {
-  return cell.bulk.law == BulkLaw::neo_hookean &&
-         (cell.cortex.law == CortexLaw::neo_hookean || cell.cortex.law == CortexLaw::neo_hookean_reference);
-}
-
 CommonErrors relative_errors(const ModuliEstimate& e) {
   const auto relative = [&](Modulus m) { return e.error(m) / e.value(m); };
   return {relative(Modulus::young), relative(Modulus::cortex), e.stiffness_error_kPa / e.stiffness_kPa,
@@ -34,31 +27,6 @@ CommonErrors relative_errors(const ModuliEstimate& e) {
 }
 
 }  // namespace
-
-ModuliTable::ModuliTable(const ModuliOptions& options)
-    : content(read_combined_table(combined_table_or_shipped(options.table))),
-      name(options.table.empty() ? content.spec.identifier : options.table.string()),
-      between(content),
-      simulated(channel_flow_of(content.spec.base)) {
-  if (options.fit_tension && between.tension_ratios().size() < 2)
-    throw UserError(
-        fmt::format("rheocyte: --fit-tension needs a table with several tensions (table.tension_ratio); {} has one.",
-                    content.spec.identifier));
-  if (options.axial_tension_Pa && *options.axial_tension_Pa != 0 && !between.is_elongated())
-    throw UserError(fmt::format(
-        "rheocyte: --axial-tension-Pa needs a table of elongated cells (table.axial_ratio); those of {} have "
-        "none.",
-        content.spec.identifier));
-}
-
-double ModuliTable::section_error_factor() const {
-  return is_neo_hookean(content.spec.base.cell) ? 1 : error_factor_of_other_laws;
-}
-
-double ModuliTable::sign_of_asymmetry() const {
-  const CellBox& box = between.box();
-  return between.at((box.least + box.greatest) / 2).value(first_mode_row + 1);
-}
 
 EventsBeyond events_beyond(const CombinedPopulation& population) {
   using enum TableSide;

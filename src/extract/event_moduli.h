@@ -3,32 +3,14 @@
 #include "events/events_beyond.h"
 #include "events/extract_settings.h"
 #include "extract/moduli_summary.h"
+#include "extract/moduli_tables.h"
 #include "infer/bulk_cortex_fit.h"
 #include "infer/combined_population.h"
 #include "infer/median_cell.h"
 #include "infer/rendered_errors.h"
-#include "shelf/square_section.h"
 #include "store/watch.h"
 
 namespace rheocyte {
-
-/// A combined table, ready for use.
-struct ModuliTable {
-  /// UserError, also if the table does not have what is to be fitted or is given.
-  explicit ModuliTable(const ModuliOptions& options);
-  ModuliTable(const ModuliTable&) = delete;
-  ModuliTable& operator=(const ModuliTable&) = delete;
-
-  /// By how much more the law of the square channel leaves of its cells than of neo-Hookean ones.
-  double section_error_factor() const;
-  /// Of c_3 of its cells.
-  double sign_of_asymmetry() const;
-
-  CombinedTable content;
-  std::string name;  ///< where it was asked for, or its identifier
-  CombinedInterpolation between;
-  ChannelFlow simulated;
-};
 
 /// Events of a fitted population beyond the cells of its table: by its sizes those that are left out, by the other
 /// sides the shares of the law.

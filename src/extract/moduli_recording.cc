@@ -18,6 +18,7 @@
 #include "numeric/no_value.h"
 #include "numeric/quantile.h"
 #include "shelf/modulus_tables.h"
+#include "shelf/square_section.h"
 #include "store/build_info.h"
 #include "store/tasks.h"
 
@@ -31,21 +32,22 @@ constexpr std::size_t events_between_progress = 256, events_of_survey = 256;
 class Fits {
  public:
   /// `watch` is asked from event to event.
-  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTable& table, int threads, Watch watch)
+  Fits(const Recording& recording, const ModuliOptions& options, const ModuliTables& tables, int threads, Watch watch)
       : watch_(std::move(watch)),
         threads_(threads),
         events_(recording, options.measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
-        simulated_exponent_(table.simulated.exponent),
-        section_(section_seen(options.section, events_.facts().made_of, table.content.spec.base)),
+        section_(section_seen(options.section, events_.facts().made_of, tables.computed().content.spec.base)),
+        table_(tables.seen_in(section_, conditions().flow.exponent, events_.facts().made_of)),
+        table_name_(tables.name()),
+        is_changed_(&table_ != &tables.computed()),
         is_told_(options.section),
         outline_noise_um_(options.outline_noise_um.value_or(0)),
         solids_(std::string(), section_),
         shapes_of_solids_(solids_.shapes(conditions().flow.exponent)),
         elongated_solids_(solids_.elongated(conditions().flow.exponent)),
-        moduli_(events_.settings(), options, table, section_),
-        table_(table) {
-    events_.turn_downstream(table.sign_of_asymmetry());
-    axial_.is_of_elongated_cells = table.between.is_elongated();
+        moduli_(events_.settings(), options, table_, section_) {
+    events_.turn_downstream(table_.sign_of_asymmetry());
+    axial_.is_of_elongated_cells = table_.between.is_elongated();
     axial_.is_given = options.axial_tension_Pa.has_value();
     settings_hash_ = hash_of_settings(options);
   }
@@ -83,7 +85,7 @@ class Fits {
     std::vector<std::string> lines{
         fmt::format("rheocyte {} moduli", version),
         "recording: " + events_.recording().file().string(),
-        "table: " + table_.name,
+        "table: " + table_name_ + liquid_text(),
         way_text(options),
         section_text(),
         fmt::format("errors of the outline beside those of the pixels: {:g} um", outline_noise_um_),
@@ -143,14 +145,14 @@ class Fits {
     if (auto missing = missing_text(s); !missing.empty()) s.warnings.push_back(std::move(missing));
     if (is_square()) {
       s.warnings.push_back(section_text());
-    } else {
-      if (!is_told_) s.warnings.emplace_back(own_cells_text);
-      if (std::abs(conditions().flow.exponent - simulated_exponent_) > flow_exponent_tolerance)
-        s.warnings.push_back(fmt::format(
-            "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}, with the same "
-            "viscosity at the wall. Moduli are off by up to 5 %; for cells under an axial tension effective moduli are "
-            "4 to 14 % too high and the tension 8 to 10 % too low (d = 0.06 to 0.11).",
-            conditions().flow.exponent, simulated_exponent_));
+    } else if (!is_told_) {
+      s.warnings.emplace_back(own_cells_text);
+    } else if (std::abs(conditions().flow.exponent - table_.simulated.exponent) > flow_exponent_tolerance) {
+      s.warnings.push_back(fmt::format(
+          "the medium is shear-thinning with the exponent {:.3g}, the table's liquid has {:.3g}, with the same "
+          "viscosity at the wall. Moduli are off by up to 5 %{}",
+          conditions().flow.exponent, table_.simulated.exponent,
+          axial_.is_of_elongated_cells ? ", under an axial tension effective moduli by up to a third." : "."));
     }
     if (s.resolved() == 0 && s.with_stiffness() > 0)
       s.warnings.emplace_back(
@@ -160,6 +162,12 @@ class Fits {
   }
 
  private:
+  std::string liquid_text() const {
+    return is_changed_ ? fmt::format(", its states changed to a liquid with the exponent {:.4g}",
+                                     table_.simulated.exponent)
+                       : "";
+  }
+
   std::string way_text(const ModuliOptions& options) const {
     return fmt::format(
         "by {}; {}",
@@ -238,8 +246,10 @@ class Fits {
   Watch watch_;
   int threads_;
   EventReader events_;
-  double simulated_exponent_;
   Section section_;
+  const ModuliTable& table_;
+  std::string table_name_;
+  bool is_changed_;
   bool is_told_;  ///< by the user
   double outline_noise_um_;
   std::string settings_hash_;
@@ -247,7 +257,6 @@ class Fits {
   const ShapeMap* shapes_of_solids_;
   const ElongatedLiquid* elongated_solids_;
   EventModuli moduli_;
-  const ModuliTable& table_;
   AxialSummary axial_;
   MedianCell median_;
   CommonErrors common_errors_;
@@ -262,11 +271,11 @@ class Fits {
 }  // namespace
 
 ModuliSummary moduli_of_recording(const std::filesystem::path& path, const ModuliOptions& options,
-                                  const ModuliTable& table, int threads, ModuliConsumer& consumer,
+                                  const ModuliTables& tables, int threads, ModuliConsumer& consumer,
                                   const TellProgress& report_progress) {
   Recording recording(path);
   EventPass pass(recording, report_progress);
-  Fits fits(recording, options, table, threads, pass.watch());
+  Fits fits(recording, options, tables, threads, pass.watch());
   fits.survey(recording, options);
   consumer.begin(recording, fits.lines(options));
   pass.in_blocks(events_between_progress,

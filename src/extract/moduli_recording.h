@@ -28,7 +28,7 @@ class ModuliConsumer {
 /// is wrong with the recording, which must have contours or masks, and of the consumer. The cells of a block are shared
 /// by up to so many threads; results do not depend on it.
 ModuliSummary moduli_of_recording(const std::filesystem::path& recording, const ModuliOptions& options,
-                                  const ModuliTable& table, int threads, ModuliConsumer& consumer,
+                                  const ModuliTables& tables, int threads, ModuliConsumer& consumer,
                                   const TellProgress& report_progress);
 
 }  // namespace rheocyte

@@ -90,6 +90,9 @@ struct ShapeVerdict {
   bool is_tension_given = false;        ///< the axial tension of the liquid, by which cells have an effective modulus
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
+  /// Where gates select cells by their shapes: the modulus that is recommended if these gates are lifted, NaN without
+  /// one. Its difference is an error of the recommended modulus.
+  std::optional<double> without_shape_gates_kPa = {};
 
   /// For store/bytes.h.
   template <class Self>
@@ -99,7 +102,8 @@ struct ShapeVerdict {
                     s.inertia_ratio_trend, s.deformation_trend, s.asymmetry_trend, s.mode_4_trend, s.direction,
                     s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
                     s.with_elongation, s.modulus_ratio, s.asymmetry, s.radius_px, s.elongation, s.axial_tension_Pa,
-                    s.effective, s.is_tension_given, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis);
+                    s.effective, s.is_tension_given, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis,
+                    s.without_shape_gates_kPa);
   }
 
   double elongated_percent() const;

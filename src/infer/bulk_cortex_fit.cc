@@ -107,10 +107,10 @@ double BulkCortexFit::axial_tension_Pa(const CellCoordinates& cell, const Channe
 }
 
 // All coordinates free, then that of fraction and tension which left the table farthest held at its border, until none
-// is.
+// is. One that is held where the features would be nearer inside is free once more: the way there led along the border.
 BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const CellCoordinates& start,
                                                      Fraction fraction) const {
-  std::vector<int> free{x_radius, x_progress};
+  std::vector<int> free{x_radius, x_progress}, held;
   if (fraction == Fraction::fitted && has_free_fraction()) free.push_back(x_fraction);
   if (options_.free_tension) free.push_back(x_ratio);
   if (table_.is_elongated()) free.push_back(x_axial);
@@ -118,25 +118,41 @@ BulkCortexFit::Candidate BulkCortexFit::minimum_from(ModuliMisfit& misfit, const
   const CellBox& box = table_.box();
   const CellCoordinates width = widths(box);
   const auto residuals = [&](const Eigen::VectorXd& x, Eigen::MatrixXd* slopes) { return misfit.residuals(x, slopes); };
+  int releases = int(free.size());
+  const auto leads_inside = [&](int coordinate) {
+    misfit.set_free({x_progress, coordinate}, cell);
+    Eigen::MatrixXd slopes;
+    const Eigen::VectorXd off = misfit.residuals(misfit.parameters(), &slopes);
+    const double rise = slopes.col(1).dot(off);
+    return cell(coordinate) <= box.least(coordinate) ? rise < 0 : rise > 0;
+  };
   while (true) {
     misfit.set_free(free, cell);
     Eigen::VectorXd x = misfit.parameters();
     const double chi_squared = minimise_squares(residuals, x);
     cell = misfit.cell_at(x);
     if (!cell.allFinite() || !std::isfinite(chi_squared)) return {start, HUGE_VAL};
-    const CellCoordinates held = cell.cwiseMax(box.least).cwiseMin(box.greatest),
-                          beyond = (cell - held).cwiseAbs().cwiseQuotient(width);
+    const CellCoordinates inside = cell.cwiseMax(box.least).cwiseMin(box.greatest),
+                          beyond = (cell - inside).cwiseAbs().cwiseQuotient(width);
     const auto outside = [&](int coordinate) {
       return coordinate == x_fraction || coordinate == x_ratio ? beyond(coordinate) : 0;
     };
     const auto farthest = std::ranges::max_element(free, {}, outside);
-    if (outside(*farthest) == 0) {
-      // Without a cortex no ratio is better than another, and errors depend on it.
-      if (options_.free_tension && cell(x_fraction) == 0) cell(x_ratio) = middle_ratio();
-      return {cell, chi_squared};
+    if (outside(*farthest) > 0) {
+      cell(*farthest) = inside(*farthest);
+      held.push_back(*farthest);
+      free.erase(farthest);
+      continue;
     }
-    cell(*farthest) = held(*farthest);
-    free.erase(farthest);
+    const auto released = std::ranges::find_if(held, leads_inside);
+    if (released != held.end() && releases-- > 0) {
+      free.push_back(*released);
+      held.clear();
+      continue;
+    }
+    // Without a cortex no ratio is better than another, and errors depend on it.
+    if (options_.free_tension && cell(x_fraction) == 0) cell(x_ratio) = middle_ratio();
+    return {cell, chi_squared};
   }
 }
 

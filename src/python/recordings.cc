@@ -37,11 +37,11 @@ py::tuple moduli(const std::filesystem::path& recording, const ModuliOptions& op
   check_options(options.measuring);
   const SharedColumns memory;
   return interruptible([&](const std::atomic<bool>& stop) {
-           const ModuliTable table(options);
+           const ModuliTables tables(options);
            const auto work = [&](const TellProgress& report_progress) -> GatheredEvents {
              GatheredModuli gathered;
              const auto summary =
-                 moduli_of_recording(recording, options, table, processors(), gathered, report_progress);
+                 moduli_of_recording(recording, options, tables, processors(), gathered, report_progress);
              return {gathered.events.events(), gathered.events.write(memory), gathered.settings, summary.warnings,
                      summary.settings_hash};
            };

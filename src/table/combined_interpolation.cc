@@ -101,15 +101,13 @@ const CombinedBranch* branch_at(const CombinedTable& table, const SweepPoint& wa
   return found == table.branches.end() ? nullptr : &*found;
 }
 
-/// Of the stiffest cell that no axial tension elongates, whose third mode is in proportion to the compliance: of the
-/// stiffness 1 kPa. NaN where there is none.
+}  // namespace
+
 double mode_3_of_unit(const CombinedTable& table, SweepPoint place) {
   place.axial_ratio = 0;
   const CombinedBranch* const round = branch_at(table, place);
   return round && round->samples() > 0 ? round->value(0, feature_of_mode(3)) * round->stiffness_kPa[0] : no_value;
 }
-
-}  // namespace
 
 CombinedInterpolation::Curve CombinedInterpolation::curve_at(const CombinedTable& table,
                                                              const SweepPoint& wanted) const {
@@ -238,6 +236,19 @@ bool CombinedInterpolation::is_inside(const CellCoordinates& cell) const {
   if (!((cell - box_.least).array() >= -1e-12).all() || !((box_.greatest - cell).array() >= -1e-12).all()) return false;
   const int below = interval_of(axial_ratios_, cell(x_axial));
   return axial_reaches(below, cell) && (!is_elongated() || axial_reaches(below + 1, cell));
+}
+
+CellCoordinates CombinedInterpolation::nearest_inside(CellCoordinates cell) const {
+  constexpr int halvings = 30;
+  cell = cell.cwiseMax(box_.least).cwiseMin(box_.greatest);
+  if (is_inside(cell)) return cell;
+  double inside = box_.least(x_progress), beyond = cell(x_progress);
+  for (int i = 0; i < halvings; ++i) {
+    cell(x_progress) = (inside + beyond) / 2;
+    (is_inside(cell) ? inside : beyond) = cell(x_progress);
+  }
+  cell(x_progress) = inside;
+  return cell;
 }
 
 }  // namespace rheocyte

@@ -31,6 +31,10 @@ struct CombinedState {
   bool inside = false;  ///< between branches that reach this progress; else it is continued from the nearest ones
 };
 
+/// Progress of a cell of 1 kPa in a table of elongated cells: the third mode of the stiffest cell that no axial tension
+/// elongates, times its stiffness, to which this mode is inversely proportional. NaN without such a cell.
+double mode_3_of_unit(const CombinedTable& table, SweepPoint place);
+
 /// Range of the coordinates; the greatest progress is that of the branch that goes farthest.
 struct CellBox {
   CellCoordinates least, greatest;
@@ -61,6 +65,8 @@ class CombinedInterpolation {
   /// count little, at their ends before it; weights sum to one. Empty outside the table.
   std::vector<BranchWeight> weights(const CellCoordinates& cell) const;
   bool is_inside(const CellCoordinates& cell) const;
+  /// The cell, its coordinates within their ranges; or the last one inside on the way there from a stiffer one.
+  CellCoordinates nearest_inside(CellCoordinates cell) const;
   const TableSpec& spec() const { return spec_; }
   const CellBox& box() const { return box_; }
   const std::vector<double>& radii_um() const { return radii_; }

@@ -6,6 +6,7 @@
 #include "case/write_case.h"
 #include "report/moduli_columns.h"
 #include "report/rows_json.h"
+#include "shelf/square_section.h"
 #include "view/event_json.h"
 #include "view/model_outline.h"
 
@@ -39,11 +40,12 @@ Json numbers_of(const ModuliEstimate& e) {
 
 }  // namespace
 
-CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTable& table)
-    : table_(table),
-      events_(recording, measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
-      moduli_(events_.settings(), {}, table, section_seen({}, events_.facts().made_of, table.content.spec.base)) {
-  events_.turn_downstream(table.sign_of_asymmetry());
+CombinedCells::CombinedCells(const Recording& recording, const MeasuringOptions& measuring, const ModuliTables& tables)
+    : events_(recording, measuring, {.outlines = OutlineUse::needed, .outlines_for = use_of_outlines}),
+      section_(section_seen({}, events_.facts().made_of, tables.computed().content.spec.base)),
+      table_(tables.seen_in(section_, events_.conditions().flow.exponent, events_.facts().made_of)),
+      moduli_(events_.settings(), {}, table_, section_) {
+  events_.turn_downstream(table_.sign_of_asymmetry());
 }
 
 CombinedCell CombinedCells::at(std::size_t event) {

@@ -21,8 +21,8 @@ struct CombinedCell {
 
 class CombinedCells {
  public:
-  /// The recording has outlines (asserted). Recording and table must outlive it. UserError as of `rheocyte moduli`.
-  CombinedCells(const Recording&, const MeasuringOptions&, const ModuliTable&);
+  /// The recording has outlines (asserted). Recording and tables must outlive it. UserError as of `rheocyte moduli`.
+  CombinedCells(const Recording&, const MeasuringOptions&, const ModuliTables&);
 
   /// UserError if the data are damaged.
   CombinedCell at(std::size_t event);
@@ -31,8 +31,9 @@ class CombinedCells {
   nlohmann::ordered_json case_of(const ModuliEstimate&, double viscosity_mPas) const;
   Eigen::MatrixX2d outline_of(const ModuliEstimate&) const;
 
-  const ModuliTable& table_;
   EventReader events_;
+  Section section_;
+  const ModuliTable& table_;
   EventModuli moduli_;
 };
 

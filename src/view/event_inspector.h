@@ -18,12 +18,12 @@ namespace rheocyte {
 
 class CombinedCells;
 class Extraction;
-struct ModuliTable;
+class ModuliTables;
 
 struct InspectedRecording {
   const Recording& recording;
   ComputedFiles computed = {};
-  const ModuliTable* combined = nullptr;  ///< of cells with bulk and cortex; null: none
+  const ModuliTables* combined = nullptr;  ///< of cells with bulk and cortex; null: none
 };
 
 /// One recording with its settings, event after event: what belongs to all of them is found out once.

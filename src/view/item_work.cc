@@ -90,18 +90,18 @@ struct Inspection {
       : open(request, tell),
         options(options_of_settings(request.at("settings"))),
         tables(options.table, options.section),
-        combined(combined_table(path_in(request, "combined"), options)),
+        combined(combined_tables(path_in(request, "combined"), options)),
         inspector({open.recording, open.computed(), combined ? &*combined : nullptr}, options, tables) {}
 
-  static std::optional<ModuliTable> combined_table(const fs::path& folder, const ExtractOptions& options) {
+  static std::optional<ModuliTables> combined_tables(const fs::path& folder, const ExtractOptions& options) {
     if (folder.empty()) return std::nullopt;
-    return std::optional<ModuliTable>(std::in_place, moduli_options(options, folder));
+    return std::optional<ModuliTables>(std::in_place, moduli_options(options, folder));
   }
 
   OpenRecording open;
   ExtractOptions options;
   ModulusTables tables;
-  std::optional<ModuliTable> combined;
+  std::optional<ModuliTables> combined;
   EventInspector inspector;
 };
 
@@ -138,11 +138,11 @@ void add_bulk_cortex_fit(const Json& request, const ExtractOptions& options, con
   if (folder.empty() || target.empty()) return;
   try {
     const ModuliOptions wanted = moduli_options(options, folder);
-    const ModuliTable table(wanted);
+    const ModuliTables tables(wanted);
     ModuliCompanion companion(target);
     const ModuliSummary summary =
-        moduli_of_recording(path_in(request, "file"), wanted, table, processors(), companion, tell);
-    report["lines"].push_back(table.content.spec.identifier + ": " + in_one_line(summary));
+        moduli_of_recording(path_in(request, "file"), wanted, tables, processors(), companion, tell);
+    report["lines"].push_back(tables.computed().content.spec.identifier + ": " + in_one_line(summary));
     for (const auto& lines : {lines_of(summary), summary.warnings})
       for (const auto& line : lines) report["lines"].push_back(line);
     for (const ColumnDescription& feature : moduli_features()) report["features"].push_back(feature.role);

@@ -61,11 +61,7 @@ class CellsOfStiffnessInMemory : public ::testing::Test {
     options.section = Section::tube;
     return options;
   }();
-  ModuliTable table_{[] {
-    ModuliOptions options;
-    options.table = SHIPPED_TABLES "/combined_HC-2D-NH-26.cbor";
-    return options;
-  }()};
+  ModuliTable table_{read_combined_table(SHIPPED_TABLES "/combined_HC-2D-NH-26.cbor")};
 };
 
 TEST_F(CellsOfStiffnessInMemory, WithinTheTableAreAllFittedThere) {

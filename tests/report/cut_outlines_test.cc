@@ -135,7 +135,7 @@ TEST_F(CutOutlines, HaveAStatusOfTheirOwnAmongModuliOfBulkAndCortex) {
   } told;
   ModuliOptions options;
   options.axial_tension_Pa = 0;
-  const ModuliSummary summary = moduli_of_recording(recording(true), options, ModuliTable(options), 1, told, quiet);
+  const ModuliSummary summary = moduli_of_recording(recording(true), options, ModuliTables(options), 1, told, quiet);
   ASSERT_EQ(told.all.size(), std::size_t(events));
   EXPECT_EQ(std::ranges::count(told.all, ModuliStatus::cut), cut_events);
   EXPECT_EQ(summary.counts[std::size_t(ModuliStatus::no_data)], 0U);

@@ -201,7 +201,7 @@ TEST(EventInspector, SaysWhatModuliSaysByACombinedTable) {
   moduli.table = folder / "table";
   moduli.section = Section::tube;  // as the invented cells
   moduli.measuring.viscosity_mPas = 15;
-  const ModuliTable combined(moduli);
+  const ModuliTables combined(moduli);
   ModuliText text(folder / "a.tsv");
   moduli_of_recording(folder / "a.rtdc", moduli, combined, 2, text, [](double) {});
   ModuliCompanion companion(folder / "a_moduli.rtdc");
