@@ -35,6 +35,9 @@ class PopulationAnalysis {
     const std::optional<ShapeVerdict>& shapes;
   };
   void add(const Place& place, const PopulationEvents& events, const Watch& watch);
+  /// Whether the recording that was added last must be compared with its events without gates on the shape.
+  bool needs_all_shapes() const { return model_->lacks_shape_gates() && gates_limit_shapes_; }
+  void compare(const PopulationEvents& without_shape_gates) { model_->compare(without_shape_gates, recordings_.back()); }
   /// Of all that were added.
   PopulationReport report();
 
@@ -49,6 +52,7 @@ class PopulationAnalysis {
   const std::vector<PopulationCondition>& conditions_;
   std::vector<double> doses_;
   StiffnessMeasure by_;
+  bool gates_limit_shapes_;
   std::unique_ptr<PopulationModel> model_;
   std::string why_this_model_;
   std::vector<RecordingReport> recordings_;
@@ -61,6 +65,7 @@ PopulationAnalysis::PopulationAnalysis(const PopulationOptions& options,
       conditions_(conditions),
       doses_(doses_of(options.doses, conditions)),
       by_(stiffness_measure_of(options)),
+      gates_limit_shapes_(Gates(options.measuring.gates).limit_shapes()),
       model_(population_model(options)),
       why_this_model_(std::move(why_this_model)) {}
 
@@ -104,7 +109,7 @@ RecordingReport PopulationAnalysis::described(const Place& place, const Populati
   r.without_numbers = events.without_numbers;
   r.settings_hash = hash_of_settings(r.table, events);
   r.warnings = events.warnings;
-  if (!events.gates_beside_the_model.empty() && events.gated > 0)
+  if (!events.gates_beside_the_model.empty() && events.gated > 0 && !needs_all_shapes())
     r.warnings.push_back(
         fmt::format("the gates on {} are not part of the model: what they exclude may change the modulus.",
                     events.gates_beside_the_model));
@@ -183,11 +188,18 @@ PopulationReport analyse(const std::vector<PopulationCondition>& conditions, con
     for (std::size_t j = 0; j < conditions[c].recordings.size(); ++j) {
       watch.go_on();
       const auto& recording = conditions[c].recordings[j];
-      const auto read = [&](const TellProgress& report_progress) {
-        return read_population_events(recording, options.measuring, measure,
-                                      [&](double fraction) { report_progress((done + 0.5 * fraction) / all); });
+      const auto read = [&](const MeasuringOptions& measuring) {
+        return read_isolated(recording, measuring, watch, [&](const TellProgress& report_progress) {
+          return read_population_events(recording, measuring, measure,
+                                        [&](double fraction) { report_progress((done + 0.5 * fraction) / all); });
+        });
       };
-      analysis.add({c, j, shapes[std::size_t(done)]}, read_isolated(recording, options.measuring, watch, read), watch);
+      analysis.add({c, j, shapes[std::size_t(done)]}, read(options.measuring), watch);
+      if (analysis.needs_all_shapes()) {
+        MeasuringOptions lifted = options.measuring;
+        lifted.lifts_shape_gates = true;
+        analysis.compare(read(lifted));
+      }
       watch.progress(++done / all);
     }
   return analysis.report();

@@ -22,6 +22,12 @@ EventFigures figures_of(const PopulationEvents& events) {
   return figures;
 }
 
+ChannelFlow flow_of(const RecordingReport& r) {
+  ChannelFlow flow = r.conditions.flow;
+  flow.viscosity_mPas = r.median_viscosity_mPas;
+  return flow;
+}
+
 QuantityEstimate estimate_of(PopulationQuantity quantity, const Median& median, double spread) {
   return {quantity,
           {std::log(median.value), std::pow(median.error / median.value, 2)},
@@ -89,12 +95,45 @@ void EffectivePopulations::share(std::span<RecordingReport> recordings) {
   }
 }
 
+EffectiveCell EffectivePopulations::cell_of(const EventFigures& figures, const AxialTension& tension,
+                                            const RecordingReport& r) const {
+  const ChannelFlow flow = flow_of(r);
+  return effective_cell(tables_.proportioned(flow.exponent), figures, {flow, tables_.section()}, r.pixel_size_um,
+                        tension);
+}
+
+void EffectivePopulations::compare(const PopulationEvents& without_shape_gates, RecordingReport& r) const {
+  if (!r.effective || !r.effective->is_found()) {
+    r.warnings.emplace_back("the gates select cells by their shape: a modulus is that of the selected cells.");
+    return;
+  }
+  const EffectiveCell all = cell_of(figures_of(without_shape_gates), given_, r);
+  if (!all.is_found()) {
+    r.warnings.emplace_back(
+        "the gates select cells by their shape: the effective modulus is that of the selected cells. Without gates on "
+        "the shape there is none: " +
+        effective_place_text(all));
+    return;
+  }
+  constexpr double worth_a_word = 0.01;  // of the modulus
+  if (std::abs(std::log(all.effective_kPa.value / r.effective->effective_kPa.value)) < worth_a_word) return;
+  const auto add = [&](PopulationQuantity quantity, const Median& selected, const Median& of_all) {
+    for (QuantityEstimate& e : r.quantities)
+      if (e.quantity == quantity)
+        e.common_error = std::hypot(e.common_error, std::log(of_all.value / selected.value));
+  };
+  add(PopulationQuantity::effective_modulus, r.effective->effective_kPa, all.effective_kPa);
+  add(PopulationQuantity::axial_tension, r.effective->axial_tension_Pa, all.axial_tension_Pa);
+  r.warnings.push_back(fmt::format(
+      "the gates select cells by their shape. Without gates on the shape the effective modulus is {:.3g} kPa; the "
+      "difference is part of the systematic error, and ratios of such recordings are too close to 1.",
+      all.effective_kPa.value));
+}
+
 void EffectivePopulations::take_cell(const EventFigures& figures, const AxialTension& tension,
                                      RecordingReport& r) const {
-  ChannelFlow flow = r.conditions.flow;
-  flow.viscosity_mPas = r.median_viscosity_mPas;
-  EffectiveCell& cell = r.effective.emplace(effective_cell(tables_.proportioned(flow.exponent), figures,
-                                                           {flow, tables_.section()}, r.pixel_size_um, tension));
+  const ChannelFlow flow = flow_of(r);
+  EffectiveCell& cell = r.effective.emplace(cell_of(figures, tension, r));
   if (!cell.is_found()) {
     r.failure = effective_place_text(cell);
     r.is_beyond = cell.place == EffectivePlace::softer || cell.place == EffectivePlace::longer;

@@ -20,10 +20,13 @@ class EffectivePopulations : public PopulationModel {
   }
   std::string systematic_errors(std::span<const RecordingReport> recordings) const override;
   void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) override;
+  bool lacks_shape_gates() const override { return true; }
+  void compare(const PopulationEvents& without_shape_gates, RecordingReport& report) const override;
   /// Recordings without inertia ratios have the tension of others of their set-up.
   void share(std::span<RecordingReport> recordings) override;
 
  private:
+  EffectiveCell cell_of(const EventFigures& figures, const AxialTension& tension, const RecordingReport& report) const;
   void take_cell(const EventFigures& figures, const AxialTension& tension, RecordingReport& report) const;
 
   ModulusTables tables_;

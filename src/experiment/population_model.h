@@ -25,6 +25,12 @@ class PopulationModel {
   /// Fits the population of a recording and adds what is found, or why there are no numbers; `watch` is asked from
   /// step to step where that takes long. UserError: too few events, none inside the gates, gates that leave a tail.
   virtual void fit(const PopulationEvents& events, RecordingReport& report, const Watch& watch) = 0;
+  /// Whether gates on the shape select cells beyond what the model knows of: `compare` follows a fit then.
+  virtual bool lacks_shape_gates() const { return false; }
+  /// With the events that pass if gates on the shape are lifted.
+  virtual void compare(const PopulationEvents& without_shape_gates, RecordingReport& report) const {
+    static_cast<void>(without_shape_gates), static_cast<void>(report);
+  }
   /// Once all were fitted, in the same order: what they share.
   virtual void share(std::span<RecordingReport> recordings) { static_cast<void>(recordings); }
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "events/event_pass.h"
 #include "events/event_reader.h"
 #include "events/options.h"
 #include "extract/event_block.h"
@@ -40,6 +41,8 @@ class Extraction {
   /// From now on events have an effective modulus, too: that of a cell under the axial tension of this one. False if
   /// the cell has none, or the table of such cells has none under this tension; then nothing changes.
   bool take_tension(const EffectiveCell& cell);
+  /// The modulus that is recommended if the gates on the shape are lifted; NaN without one.
+  void take_without_shape_gates(double kPa) { without_shape_gates_kPa_ = kPa; }
   /// From now on blocks hold the features of the outlines, too, where contours or masks are read.
   void measure_outlines() { event_shapes_.measure_outlines(settings().pixel_size_um); }
   /// The number of events that are best computed at once.
@@ -64,7 +67,7 @@ class Extraction {
   std::string beyond_the_square() const;
   void add_soft_ends(ExtractSummary& summary) const;
   void add_effective_cell(ExtractSummary& summary) const;
-  std::string gates_on_shapes() const;
+  std::string gates_on_shapes(const ShapeVerdict& shapes) const;
   void add_effective_events(ExtractSummary& summary) const;
   void collect();
   void compute_effective(const MeasuredEvents& events);
@@ -90,6 +93,7 @@ class Extraction {
   std::unique_ptr<const ModulusMap> effective_map_;  ///< null: events have no effective modulus
   EffectiveCell effective_cell_;                     ///< under whose tension they have one
   SidedModuli effective_moduli_;
+  double without_shape_gates_kPa_ = no_value;
   std::vector<double> moduli_;
   std::vector<float> standard_errors_;
   double viscosity_sum_ = 0;
@@ -100,16 +104,23 @@ class Extraction {
 ExtractSummary summary_of_recording(const std::filesystem::path& recording, const ExtractOptions& options,
                                     const ModulusTables& tables, const TellProgress& on_progress);
 
+/// The modulus that is recommended if the gates on the shape are lifted; NaN without one, or without such gates.
+double without_shape_gates_kPa(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables,
+                               EventPass& events);
+
 /// All events of a recording once, by `pass`, which computes all blocks of an extraction and returns its summary. Where
 /// the effective modulus is recommended once more: then events have one under the axial tension that the first pass
-/// found.
+/// found. Where gates limit the shapes they are lifted first, in a pass of its own.
 template <class Pass>
 ExtractSummary extract_in_passes(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables,
-                                 const Pass& pass) {
+                                 EventPass& events, const Pass& pass) {
+  const double without_gates = without_shape_gates_kPa(recording, options, tables, events);
   Extraction first(recording, options, tables);
+  first.take_without_shape_gates(without_gates);
   ExtractSummary summary = pass(first);
   if (recommendation(summary.shapes).way != RecommendedWay::effective) return summary;
   Extraction second(recording, options, tables);
+  second.take_without_shape_gates(without_gates);
   return second.take_tension(summary.shapes.effective) ? pass(second) : summary;
 }
 

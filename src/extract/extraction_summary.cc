@@ -66,6 +66,8 @@ ExtractSummary Extraction::summary() {
                                    conditions().flow.exponent);
   s.shapes.elongated_by = event_shapes_.elongated_by().value_or(ElongatedBy::modes);
   s.shapes.is_tension_given = tension_.is_known();
+  s.shapes.are_shapes_gated = events_.gates().limit_shapes();
+  s.shapes.without_shape_gates_kPa = without_shape_gates_kPa_;
   s.shapes.has_elongated_table = event_shapes_.elongated_by().has_value();
   add_common_errors(s);
   add_soft_ends(s);
@@ -77,27 +79,26 @@ ExtractSummary Extraction::summary() {
     add_effective_cell(s);
   s.warnings = remarks(s);
   if (const auto beyond = beyond_the_square(); !beyond.empty()) s.warnings.push_back(beyond);
-  if (s.shapes.effective.is_found())
-    if (const auto gates = gates_on_shapes(); !gates.empty()) s.warnings.push_back(gates);
+  if (s.shapes.are_shapes_gated)
+    if (const auto gates = gates_on_shapes(s.shapes); !gates.empty()) s.warnings.push_back(gates);
   if (comparison_.is_made()) s.warnings.push_back(comparison_.sentence(conditions().flow.exponent));
   if (events_.recording().has_scalar("emodulus"))
     s.warnings.emplace_back("the recording has a feature emodulus of another program; it was not used.");
   return s;
 }
 
-/// Cells are then selected by what the effective modulus follows from.
-std::string Extraction::gates_on_shapes() const {
-  const Gates& gates = events_.gates();
-  const bool are_shapes_limited =
-      std::ranges::any_of(std::array{"deform", "inert_ratio_cvx", "circ"}, [&](auto feature) {
-        const auto [min, max] = gates.limits_of(feature);
-        return std::isfinite(min) || std::isfinite(max);
-      });
-  if (!are_shapes_limited) return {};
-  return fmt::format(
-      "the gates on the shape ({}) select cells by their deformation: the effective modulus is that of the selected "
-      "cells, not that of all.",
-      gates.description_without({"area_um"}));
+/// Cells are then selected by what their stiffness decides.
+std::string Extraction::gates_on_shapes(const ShapeVerdict& shapes) const {
+  constexpr double worth_a_word = 0.01;  // of the modulus
+  const Recommendation r = recommendation(shapes);
+  if (r.way == RecommendedWay::none) return {};
+  if (std::abs(std::log(r.kPa.value / shapes.without_shape_gates_kPa)) < worth_a_word) return {};
+  const std::string gates = fmt::format("the gates ({}) select cells by their shape.", events_.gates().description());
+  if (!std::isfinite(shapes.without_shape_gates_kPa))
+    return gates + " The recommended modulus is that of the selected cells: without these gates there is none.";
+  return fmt::format("{} Without gates on the shape the recommended modulus is {:.4g} kPa; the difference is part of "
+                     "the systematic error.",
+                     gates, shapes.without_shape_gates_kPa);
 }
 
 void Extraction::add_effective_cell(ExtractSummary& s) const {
@@ -165,11 +166,24 @@ std::string Extraction::settings_hash() const {
   return rheocyte::settings_hash(lines);
 }
 
+double without_shape_gates_kPa(const Recording& recording, const ExtractOptions& options, const ModulusTables& tables,
+                               EventPass& events) {
+  if (!Gates(options.measuring.gates).limit_shapes()) return no_value;
+  ExtractOptions lifted = options;
+  lifted.measuring.lifts_shape_gates = true;
+  Extraction all(recording, lifted, tables);
+  events.in_blocks(all.block(), [&](std::size_t first, std::size_t count) { all.compute(first, count); });
+  const Recommendation r = recommendation(all.summary().shapes);
+  return r.way == RecommendedWay::none ? no_value : r.kPa.value;
+}
+
 ExtractSummary summary_of_recording(const std::filesystem::path& file, const ExtractOptions& options,
                                     const ModulusTables& tables, const TellProgress& on_progress) {
   Recording recording(file);
   EventPass pass(recording, on_progress);
+  const double without_gates = without_shape_gates_kPa(recording, options, tables, pass);
   Extraction extraction(recording, options, tables);
+  extraction.take_without_shape_gates(without_gates);
   pass.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) { extraction.compute(first, count); });
   return extraction.summary();
 }

@@ -73,21 +73,7 @@ Recommendation effective_recommendation(const EffectiveCell& cell) {
   return r;
 }
 
-}  // namespace
-
-std::string_view code_of(RecommendationReason reason) {
-  constexpr std::array<std::string_view, 12> codes{
-      "model",  "shapes-unknown", "outlines",     "elongated",     "other-table",        "too-few-events",
-      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table", "effective"};
-  return codes.at(static_cast<std::size_t>(reason));
-}
-
-std::string_view Recommendation::bound() const {
-  if (reason != Reason::beyond_table) return "";
-  return events.place == MedianPlace::below ? "softer" : "stiffer";
-}
-
-Recommendation recommendation(const ShapeVerdict& v) {
+Recommendation of_selected_cells(const ShapeVerdict& v) {
   if (v.has_effective_modulus() && v.effective.place != EffectivePlace::unknown && !v.is_creeping())
     return effective_recommendation(v.effective);
   const JudgedWay choice = judged_way_of(v);
@@ -107,6 +93,28 @@ Recommendation recommendation(const ShapeVerdict& v) {
   r.way = choice.way;
   r.kPa = {median.value, std::fmax(median.error, judged.least_error_kPa),
            common_error_of(choice, v, judged) * median.value};
+  return r;
+}
+
+}  // namespace
+
+std::string_view code_of(RecommendationReason reason) {
+  constexpr std::array<std::string_view, 12> codes{
+      "model",  "shapes-unknown", "outlines",     "elongated",     "other-table",        "too-few-events",
+      "cortex", "creeping",       "beyond-table", "outside-table", "no-elongated-table", "effective"};
+  return codes.at(static_cast<std::size_t>(reason));
+}
+
+std::string_view Recommendation::bound() const {
+  if (reason != Reason::beyond_table) return "";
+  return events.place == MedianPlace::below ? "softer" : "stiffer";
+}
+
+Recommendation recommendation(const ShapeVerdict& v) {
+  Recommendation r = of_selected_cells(v);
+  if (std::isfinite(v.without_shape_gates_kPa) && r.way != RecommendedWay::none)
+    r.kPa.common_error =
+        std::hypot(r.kPa.common_error, r.kPa.value * std::log(r.kPa.value / v.without_shape_gates_kPa));
   return r;
 }
 

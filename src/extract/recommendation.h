@@ -34,7 +34,7 @@ std::string_view code_of(RecommendationReason reason);
 struct Recommendation {
   RecommendedWay way = RecommendedWay::none;  ///< none unless there is a number
   RecommendationReason reason = RecommendationReason::too_few_events;
-  Median kPa = {};              ///< with both errors; NaN without a number
+  Median kPa = {};              ///< with both errors; NaN without a number. That of gates on the shape is in common
   CensoredMedian events = {};   ///< how many events have a modulus by the way that was judged, and how many lie beyond
   double bound_kPa = no_value;  ///< of a median beyond the table; the side is events.place
   DensityMaxima log_maxima = {};  ///< of ln(E / kPa): two populations have two

@@ -42,13 +42,18 @@ std::string_view source_of(const Recommendation& r, const ShapeVerdict& v) {
   return "from deformation and inertia ratio, table of elongated cells";
 }
 
+/// Behind the other systematic errors.
+std::string_view selection_text(const ShapeVerdict& v) {
+  return std::isfinite(v.without_shape_gates_kPa) ? ", gates on the shape" : "";
+}
+
 std::string report_text(const Recommendation& r, const ShapeVerdict& v) {
   const bool has_common = std::isfinite(r.kPa.common_error), has_scatter = std::isfinite(r.kPa.error);
   const bool lacks_cortex = r.reason == Reason::elongated && v.elongated_by == ElongatedBy::inertia;
   const bool is_of_model = r.reason != Reason::elongated && r.reason != Reason::other_table;
   const std::string systematic =
-      fmt::format("pixels, table, inertia{}{}", is_of_model ? "" : ", cells off the axis in height",
-                  lacks_cortex ? ", a cortex" : "");
+      fmt::format("pixels, table, inertia{}{}{}", is_of_model ? "" : ", cells off the axis in height",
+                  lacks_cortex ? ", a cortex" : "", selection_text(v));
   const std::string errors = has_scatter && has_common ? fmt::format("errors: statistical; systematic ({})", systematic)
                                                        : "the error is statistical";
   return fmt::format("report E = {} kPa (median, {}; {}; {}; viscosity, flow rate and pixel size are not included)",
@@ -98,12 +103,12 @@ std::string effective_text(const Recommendation& r, const ShapeVerdict& v) {
     if (!sentence.empty()) comparisons += " " + sentence;
   return fmt::format(
       "report an effective Young's modulus of {} kPa (cell with the median {} of {} events; errors: statistical; "
-      "systematic (pixels, section, proportions and law of the cortex, inertia, cells off the axis in height); "
+      "systematic (pixels, section, proportions and law of the cortex, inertia, cells off the axis in height{}); "
       "viscosity, "
       "flow rate and pixel size are not included): {}. A homogeneous solid of this modulus is elongated equally by a "
       "small tension. With the proportions of HL60 cells, bulk and cortex have E + E2D/r0 = {} kPa, and the axial "
       "tension is {} Pa, {:.2g} of the wall shear stress.{}",
-      text_with_errors(r.kPa, 3), effective_data_text(cell), cell.events, effective_reason_text(v),
+      text_with_errors(r.kPa, 3), effective_data_text(cell), cell.events, selection_text(v), effective_reason_text(v),
       text_with_errors(cell.stiffness_kPa, 3), text_with_errors(cell.axial_tension_Pa, 3),
       cell.axial_tension_Pa.value / cell.wall_stress_Pa, comparisons);
 }

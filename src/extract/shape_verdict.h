@@ -90,9 +90,9 @@ struct ShapeVerdict {
   bool is_tension_given = false;        ///< the axial tension of the liquid, by which cells have an effective modulus
   Median cortex_mode_4, cortex_mode_5;  ///< c_4 and c_5 beyond those of the elongated solids, where outlines tell them
   BesideAxis beside_axis;
-  /// Where gates select cells by their shapes: the modulus that is recommended if these gates are lifted, NaN without
-  /// one. Its difference is an error of the recommended modulus.
-  std::optional<double> without_shape_gates_kPa = {};
+  bool are_shapes_gated = false;  ///< gates select cells by their shapes (Gates::limit_shapes)
+  /// The modulus that is recommended if these gates are lifted. Its difference is an error of the recommended modulus.
+  double without_shape_gates_kPa = no_value;
 
   /// For store/bytes.h.
   template <class Self>
@@ -103,7 +103,7 @@ struct ShapeVerdict {
                     s.by_deformation, s.has_elongated_table, s.elongated_by, s.by_elongation, s.elongated_kPa,
                     s.with_elongation, s.modulus_ratio, s.asymmetry, s.radius_px, s.elongation, s.axial_tension_Pa,
                     s.effective, s.is_tension_given, s.cortex_mode_4, s.cortex_mode_5, s.beside_axis,
-                    s.without_shape_gates_kPa);
+                    s.are_shapes_gated, s.without_shape_gates_kPa);
   }
 
   double elongated_percent() const;

@@ -46,7 +46,7 @@ ExtractedEvents extracted(const std::filesystem::path& file, const ExtractOption
   EventPass pass(recording, report_progress);
   std::optional<GatheredColumns<EventBlock>> events;
   std::vector<std::string> lines;
-  ExtractSummary summary = extract_in_passes(recording, options, tables, [&](Extraction& extraction) {
+  ExtractSummary summary = extract_in_passes(recording, options, tables, pass, [&](Extraction& extraction) {
     events.emplace(event_columns(extraction.knowledge()));
     pass.in_blocks(extraction.block(),
                    [&](std::size_t first, std::size_t count) { events->append(extraction.compute(first, count)); });

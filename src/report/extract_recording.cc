@@ -104,7 +104,7 @@ ExtractSummary extract_recording(const fs::path& file, const ExtractFiles& files
   Recording recording(file);
   check_same_recording(files.place(), recording);
   EventPass events(recording, on_progress);
-  return extract_in_passes(recording, options, tables, [&](Extraction& extraction) {
+  return extract_in_passes(recording, options, tables, events, [&](Extraction& extraction) {
     Writers writers(files, recording, extraction);
     events.in_blocks(extraction.block(), [&](std::size_t first, std::size_t count) {
       writers.write(first, extraction.compute(first, count));

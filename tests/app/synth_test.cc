@@ -108,6 +108,47 @@ TEST_F(Synth, WithoutATableModuliComeBackByTheTableOfTheirShapes) {
       << by_another.out;
 }
 
+/// The ratio of the recommended modulus to that of all cells, and its errors in parts of it.
+struct RecommendedRatio {
+  double ratio, scatter, common;
+  std::string warnings;
+};
+
+TEST_F(Synth, GatesOnTheShapeAreAnErrorOfTheRecommendedModulus) {
+  test::write_file(folder_ / "cells.toml",
+                   "[recording]\ncells = 400\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
+                   "medium = \"CellCarrier\"\n[cell]\nradius_um = {mean = 6.2, sd = 0.4}\n"
+                   "bulk.young_modulus_kPa = {mean = 1.2, sd = 0.3}\n");
+  ASSERT_EQ(run({"synth", path("cells.toml"), "-o", path("v.rtdc")}).exit_code, 0);
+  const auto recommended = [&](const std::vector<std::string>& gates) {
+    std::vector<std::string> command{"extract", path("v.rtdc"), "-o", path("out")};
+    command.insert(command.end(), gates.begin(), gates.end());
+    const auto ended = run(command);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto lines = split(test::content_of(folder_ / "out" / "rheocyte_summary.tsv"), '\n');
+    const auto names = split(lines[0], '\t'), values = split(lines[1], '\t');
+    const auto number = [&](const std::string& name) {
+      return std::stod(values.at(std::size_t(std::ranges::find(names, name) - names.begin())));
+    };
+    const std::string name = "recommended_young_modulus_median_kPa";
+    return RecommendedRatio{number(name), number(name + "_error"), number(name + "_common_error"), ended.err};
+  };
+  const RecommendedRatio all = recommended({});
+  EXPECT_NEAR(all.ratio, 1.2, 0.1);
+  for (const std::vector<std::string>& gates :
+       {std::vector<std::string>{"--max", "deform=0.024"},
+        {"--polygon", "area_um,deform=40,0.03:200,0.03:200,0.1:40,0.1", "--max", "area_um=300"}}) {
+    const RecommendedRatio selected = recommended(gates);
+    const double off = std::abs(selected.ratio - all.ratio);
+    EXPECT_GT(off, 5 * std::hypot(selected.scatter, all.scatter)) << "the selection matters";
+    EXPECT_GT(selected.common, 0.8 * off);
+    EXPECT_NE(selected.warnings.find("select cells by their shape"), std::string::npos) << selected.warnings;
+  }
+  const RecommendedRatio wide = recommended({"--max", "deform=0.2", "--min", "area_um=60"});
+  EXPECT_EQ(wide.ratio, all.ratio);
+  EXPECT_EQ(wide.warnings.find("select cells by their shape"), std::string::npos) << wide.warnings;
+}
+
 TEST_F(Synth, WithAnAxialTensionAloneTheCellsAreThoseOfTheTableOfElongatedOnesThatReadsThem) {
   test::write_file(folder_ / "drawn.toml",
                    "[recording]\ncells = 300\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
