@@ -5,6 +5,7 @@ import tempfile
 from pathlib import Path
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples/recordings"
+SPECS = Path(__file__).resolve().parent.parent / "tests/app"
 # A number that belongs to no name such as c3, E2D or HL60.
 HASH = re.compile(r"(hash) [0-9a-f]{16}\b")
 NUMBER = re.compile(r"(?<![\w.])(?<!\w-)[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
@@ -23,22 +24,6 @@ young_modulus_kPa = {mean = 4, sd = 0.6, distribution = "lognormal"}
 [shapes]
 table = "HE-3D-el-26"
 """
-PLACES = """[recording]
-cells = 60
-cells_per_s = 50
-width_px = 1000
-places_um = [15, 60, 140, 290]
-[channel]
-width_um = 20
-[flow]
-rate_ul_per_s = 0.04
-viscosity_mPas = 15
-[cell]
-radius_um = {mean = 6.6, sd = 0.3}
-viscosity_mPas = {mean = 1200, sd = 200, distribution = "lognormal"}
-[cell.bulk]
-young_modulus_kPa = {mean = 5, sd = 0.7, distribution = "lognormal"}
-"""
 # How each recording is made: its spec and settings.
 STIFFER = "cell.bulk.young_modulus_kPa.mean=5.2"
 RECORDINGS = {
@@ -50,7 +35,7 @@ RECORDINGS = {
     "drug-1.rtdc": ("cells.toml", "recording.seed=3", STIFFER),
     "drug-2.rtdc": ("cells.toml", "recording.seed=4", STIFFER),
     "soft.rtdc": ("cells.toml", "cell.bulk.young_modulus_kPa.mean=1.2"),
-    "places.rtdc": ("places.toml",),
+    "places.rtdc": ("cells-at-places.toml", "recording.cells=60"),
 }
 CONDITIONS = "--condition control=control-1.rtdc,control-2.rtdc --condition drug=drug-1.rtdc,drug-2.rtdc"
 # {name of the file: calls whose sentences it contains}
@@ -94,9 +79,8 @@ def _printed(program, call, folder):
 
 def _make_recordings(program, folder):
     (folder / "cells.toml").write_text(CELLS, encoding="utf-8")
-    (folder / "places.toml").write_text(PLACES, encoding="utf-8")
     for name, (spec, *settings) in RECORDINGS.items():
-        place = folder / spec if (folder / spec).exists() else EXAMPLES / spec
+        place = next(place / spec for place in (folder, EXAMPLES, SPECS) if (place / spec).exists())
         changes = [part for setting in settings for part in ("--set", setting)]
         subprocess.run([program, "synth", place, "-o", name, "--quiet", *changes], cwd=folder, check=True)
 

@@ -9,6 +9,7 @@
 #include "case/split.h"
 #include "lookup_table_file.h"
 #include "measurement/recording.h"
+#include "measurement/recording_columns.h"
 #include "measurement/recording_writer.h"
 #include "robustness/run_program.h"
 
@@ -16,12 +17,6 @@ namespace rheocyte::test {
 
 /// Greatest relative rounding of what companions hold.
 inline constexpr double single_precision = 6e-8;
-
-inline std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
 
 /// How many events the summary says that a recording has; empty without a line of it.
 inline std::string events_in_summary(const std::filesystem::path& summary, const std::string& recording) {

@@ -13,24 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string population = R"([recording]
-cells = 80
-cells_per_s = 50
-width_px = 1000
-places_um = [15, 60, 140, 290]
-[channel]
-width_um = 20
-[flow]
-rate_ul_per_s = 0.04
-viscosity_mPas = 15
-[cell]
-radius_um = {mean = 6.6, sd = 0.3}
-viscosity_mPas = {mean = 1200, sd = 200, distribution = "lognormal"}
-[cell.bulk]
-young_modulus_kPa = {mean = 5, sd = 0.7, distribution = "lognormal"}
-[shapes]
-table = "table"
-)";
+/// With shapes of the invented table.
+const std::string population = content_of(CELLS_AT_PLACES) + "[shapes]\ntable = \"table\"\n";
 
 class TimeCourseCommand : public ::testing::Test {
  protected:

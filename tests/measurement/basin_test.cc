@@ -6,6 +6,7 @@
 
 #include "case/user_error.h"
 #include "measurement/recording.h"
+#include "measurement/recording_columns.h"
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 #include "measurement/shape_source.h"
@@ -13,14 +14,9 @@
 namespace rheocyte::basin_test {
 namespace {
 
+using test::column;
 using test::RecordingWriter;
 using test::ScratchFolder;
-
-std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
 
 void write_setup(RecordingWriter& writer, const std::string& time = "12:34:56") {
   writer.text("experiment:time", time);

@@ -10,19 +10,15 @@
 #include "case/utf8.h"
 #include "measurement/hdf5_reading.h"
 #include "measurement/hdf5_writing.h"
+#include "measurement/recording_columns.h"
 #include "measurement/recording_writer.h"
 
 namespace rheocyte::companion_file_test {
 namespace {
 
+using test::column;
 using test::RecordingWriter;
 using test::ScratchFolder;
-
-std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
 
 void write_original(const std::filesystem::path& file) {
   RecordingWriter writer(file);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "measurement/circle_outline.h"
 #include "measurement/contour_features.h"
 #include "measurement/contour_from_mask.h"
 #include "numeric/cell_random.h"
@@ -16,16 +17,9 @@ namespace rheocyte::mask_from_outline_test {
 namespace {
 
 using std::numbers::pi;
+using test::circle;
 
 constexpr ImageSize size{64, 48};
-
-Eigen::MatrixX2d circle(double x, double y, double radius) {
-  constexpr int points = 720;
-  Eigen::MatrixX2d outline(points, 2);
-  for (int i = 0; i < points; ++i)
-    outline.row(i) << x + radius * std::cos(2 * pi * i / points), y + radius * std::sin(2 * pi * i / points);
-  return outline;
-}
 
 int pixels_in(const Eigen::MatrixX2d& outline) {
   std::vector<std::uint8_t> mask(size.pixels(), 7);

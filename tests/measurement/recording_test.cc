@@ -7,27 +7,18 @@
 #include "case/user_error.h"
 #include "measurement/basin.h"
 #include "measurement/hdf5_handle.h"
+#include "measurement/recording_columns.h"
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
 
 namespace rheocyte::recording_test {
 namespace {
 
+using test::column;
 using test::RecordingWriter;
+using test::remarks_contain;
 using test::ScratchFolder;
 using test::Storage;
-
-std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
-}
-
-bool remarks_contain(const Recording& recording, const std::string& words) {
-  for (const auto& remark : recording.remarks())
-    if (remark.find(words) != std::string::npos) return true;
-  return false;
-}
 
 std::string sentence_for(const std::filesystem::path& file) {
   try {

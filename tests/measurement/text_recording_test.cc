@@ -8,23 +8,20 @@
 
 #include "case/user_error.h"
 #include "measurement/recording.h"
+#include "measurement/recording_columns.h"
 #include "measurement/recording_writer.h"
 #include "measurement/shape_source.h"
 
 namespace rheocyte::text_recording_test {
 namespace {
 
+using test::column;
+
 using test::ScratchFolder;
 
 std::filesystem::path written(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
   return file;
-}
-
-std::vector<double> column(const Recording& recording, const std::string& feature) {
-  std::vector<double> values(recording.events());
-  recording.read_scalar(feature, 0, values);
-  return values;
 }
 
 std::string refusal_of(const std::filesystem::path& file) {

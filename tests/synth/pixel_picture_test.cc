@@ -7,20 +7,15 @@
 #include <numbers>
 #include <vector>
 
+#include "measurement/circle_outline.h"
+
 namespace rheocyte::pixel_picture_test {
 namespace {
 
 using std::numbers::pi;
+using test::circle;
 
 constexpr ImageSize size{64, 48};
-
-Eigen::MatrixX2d circle(double x, double y, double radius) {
-  constexpr int points = 720;
-  Eigen::MatrixX2d outline(points, 2);
-  for (int i = 0; i < points; ++i)
-    outline.row(i) << x + radius * std::cos(2 * pi * i / points), y + radius * std::sin(2 * pi * i / points);
-  return outline;
-}
 
 TEST(Grey, ShowsADarkRimABrightHaloAndTheWalls) {
   const Scene scene{0.34, 23.5, 14};
