@@ -87,6 +87,27 @@ TEST_F(PopulationCommand, BulkCortexAndTensionsComeBackAndSoDoesWhatADrugDoes) {
   EXPECT_FALSE(fs::exists(folder_.path() / "population" / "population.png")) << "of the run before";
 }
 
+TEST_F(PopulationCommand, GatesOnTheShapeAreAnErrorOfTheEffectiveModulus) {
+  write_file(folder_.path() / "cortex.toml", cells_with_cortex(2, 10));
+  synth("control.rtdc", {"recording.cells=300"}, "cortex.toml");
+  const auto analysed = [&](const std::vector<std::string>& gates) {
+    std::vector<std::string> words{"population", "--model", "effective", "--section", "tube", "--condition",
+                                   "control=control.rtdc", "--no-picture"};
+    words.insert(words.end(), gates.begin(), gates.end());
+    const Ended ended = call(words);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto recording = record()["recordings"][0];
+    return std::tuple(recording["effective_modulus_ln_median"].get<double>(),
+                      recording["effective_modulus_ln_median_common_error"].get<double>(), ended.err);
+  };
+  const auto [all, error_of_all, silence] = analysed({});
+  const auto [stiff, error_of_stiff, words] = analysed({"--max", "deform=0.014"});
+  EXPECT_GT(stiff - all, 0.05) << "the selection matters";
+  EXPECT_NEAR(error_of_stiff, std::hypot(error_of_all, stiff - all), 0.02);
+  EXPECT_NE(words.find("the gates select cells by their shape. Without gates"), std::string::npos) << words;
+  EXPECT_EQ(silence.find("select cells"), std::string::npos);
+}
+
 TEST_F(PopulationCommand, SolidsHaveNoCortexToTell) {
   synth("solids.rtdc", {"recording.cells=300"});
   const Ended ended =
