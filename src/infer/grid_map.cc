@@ -19,11 +19,10 @@ namespace rheocyte {
 namespace {
 
 constexpr std::size_t block_size = event_block_size;
-constexpr std::size_t group_size = 16;  ///< whole packets (whole_packets.h)
-using GroupColumn = Eigen::Array<double, group_size, 1>;
 
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
-double variance_by_pixels(const GridAnswer& answer, const SmoothEvents& smooth, Eigen::Index event) {
+template <std::size_t most>
+double variance_by_pixels(const GridAnswer& answer, const SmoothEventsOf<most>& smooth, Eigen::Index event) {
   const double by_area = answer.by_log_area * smooth.area_deviation[event];
   const double by_deformation =
       answer.by_log_deformation * smooth.deformation_deviation[event] / smooth.deformation[event];
@@ -58,9 +57,11 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
   const std::size_t all = estimates.modulus_kPa.size();
   assert(events.size.size() == all && events.deformation.size() == all && events.viscosity_mPas.size() == all);
   assert(estimates.standard_error_kPa.size() == all && estimates.state.size() == all);
+  if (all <= few_events) return estimate_block<few_events>(conditions, events, estimates);
   for (std::size_t first = 0; first < all; first += block_size) {
     const std::size_t count = std::min(block_size, all - first);
-    estimate_block(conditions,
+    estimate_block<block_size>(
+        conditions,
                    {events.size.subspan(first, count), events.deformation.subspan(first, count),
                     events.viscosity_mPas.subspan(first, count)},
                    {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
@@ -68,10 +69,13 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
   }
 }
 
+template <std::size_t most>
 void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
                              const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
-  SmoothEvents smooth;
+  constexpr std::size_t group_size = std::min<std::size_t>(most, 16);  // whole packets (whole_packets.h)
+  using GroupColumn = Eigen::Array<double, group_size, 1>;
+  SmoothEventsOf<most> smooth;
   remove_pixels(conditions, origin().flow, block, smooth);
   const double factor = factor_per_mPas(conditions);
   std::array<GridAnswer, group_size> answers;  // of a few events: a single one is not slowed down by a block
@@ -79,7 +83,7 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
     const std::size_t in_group = std::min(group_size, count - first);
     const auto row = static_cast<Eigen::Index>(first);
     // A deformation below zero is one that is too small, not one that is missing.
-    const GroupColumn log_deformation = smooth.deformation.segment<group_size>(row).max(0).log();
+    const GroupColumn log_deformation = smooth.deformation.template segment<group_size>(row).max(0).log();
     grid_.answer({smooth.log_area.data() + first, in_group}, {log_deformation.data(), in_group},
                  {answers.data(), in_group});
     GroupColumn modulus = GroupColumn::Zero();

@@ -27,6 +27,7 @@ class GridMap : public ModulusMap {
   PlanePoint seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const override;
 
  private:
+  template <std::size_t most>
   void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
                       const EstimatedModuli& moduli) const;
 

@@ -146,10 +146,12 @@ ShapeVector ProportionedCells::mean_of_pixels(const ShapeVector& smooth, double 
   constexpr double along = 0.7548776662466927, across = 0.5698402909980532;
   const auto part = [](double number) { return number - std::floor(number); };
   const Eigen::MatrixX2d outline = outline_of(smooth);
-  const OutlineShape of_outline = outline_shape(outline);
-  ShapeErrors by_pixels{-shape_vector(of_outline), ShapeErrors{}.covariance};
-  for (int i = 0; i < places; ++i)
-    by_pixels.bias += features_in_pixels(outline, pixel_size_um, {part(i * along), part(i * across)}) / places;
+  const OutlineShape of_outline = outline_figure(outline);
+  FigureInPixels figure(outline, pixel_size_um);
+  Eigen::Vector3d mean = -shape_vector(of_outline).head<3>();
+  for (int i = 0; i < places; ++i) mean += figure.at({part(i * along), part(i * across)}) / places;
+  ShapeErrors by_pixels;
+  by_pixels.bias.head<3>() = mean;
   add_lost_corners(smooth(int(ShapeFeature::deformation)) - of_outline.deformation, by_pixels);
   return by_pixels.bias;
 }

@@ -49,7 +49,8 @@ class ProportionedCells {
   double effective_modulus_kPa(const CellCoordinates& cell) const;
   /// What the section of the channel adds to the features of a cell of the table, on average.
   ShapeVector change_by_section(const CellCoordinates& cell, const Sight& sight) const;
-  /// What pixels add to the features of a smooth shape on average over all places on the camera.
+  /// What pixels add to area, deformation and Lambda1 / Lambda2 of a smooth shape on average over all places on the
+  /// camera; modes stay.
   ShapeVector mean_of_pixels(const ShapeVector& smooth, double pixel_size_um) const;
   /// Of a cell of the table, as it is seen without pixels.
   ShapeVector smooth_shape(const CellCoordinates& cell, const Sight& sight) const {

@@ -11,22 +11,30 @@ namespace rheocyte {
 
 /// Events that are worked on together: their columns stay in the fastest memory.
 inline constexpr std::size_t event_block_size = 512;
-using EventColumn = Eigen::Array<double, event_block_size, 1>;
+/// Or so few, which a whole block would slow down; with the same results.
+inline constexpr std::size_t few_events = packet_size;
 
-struct SmoothEvents {
-  EventColumn log_measured_area;  ///< ln(um^2), as measured
-  EventColumn log_area;           ///< ln(um^2) in the channel of the table
-  EventColumn deformation;        ///< may be negative
+template <std::size_t most>
+struct SmoothEventsOf {
+  using Column = Eigen::Array<double, most, 1>;
+  Column log_measured_area;  ///< ln(um^2), as measured
+  Column log_area;           ///< ln(um^2) in the channel of the table
+  Column deformation;        ///< may be negative
   /// Standard deviations and correlation by pixels; 0 where nothing is corrected.
-  EventColumn area_deviation, deformation_deviation, correlation;
+  Column area_deviation, deformation_deviation, correlation;
 };
+struct SmoothEvents : SmoothEventsOf<event_block_size> {};
 
 /// The packet of a column that begins with this event.
-inline auto packet_at(EventColumn& column, Eigen::Index first) { return column.segment<packet_size>(first); }
-inline auto packet_at(const EventColumn& column, Eigen::Index first) { return column.segment<packet_size>(first); }
+template <class Column>
+auto packet_at(Column& column, Eigen::Index first) {
+  return column.template segment<packet_size>(first);
+}
 
-/// Of at most event_block_size events (asserted). Areas are corrected only where the conditions want it.
+/// Of at most so many events (asserted): event_block_size or few_events. Areas are corrected only where the conditions
+/// want it.
+template <std::size_t most>
 void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& table, const MeasuredEvents& block,
-                   SmoothEvents& smooth);
+                   SmoothEventsOf<most>& smooth);
 
 }  // namespace rheocyte

@@ -33,6 +33,10 @@ class AxisPolynomials {
   /// The nodes must outlive it.
   AxisPolynomials(std::span<const double> nodes, const CellCoordinates& cell, int coordinate)
       : nodes_(nodes), place_(cell(coordinate)), coordinate_(coordinate), below_(interval_of(nodes, place_)) {
+    if (nodes.size() == 1) {
+      whole_.of(0) = {1};
+      return;
+    }
     const auto counts_wholly = [](int) { return CellFunction{1}; };
     whole_ = weights_of_parts(counts_wholly);
   }
@@ -53,10 +57,14 @@ class AxisPolynomials {
     int count_ = 0;
   };
 
+  /// Of a cell far from the ends of branches.
+  std::size_t usual_nodes() const { return std::min(nodes_.size(), std::size_t(most_nodes)); }
+
   /// Weights of the nodes. `part_of` gives how much one that is not next to the cell counts, from 0 to 1; what it
   /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part.
   template <class Part>
   Weights weights(const Part& part_of) const {
+    if (nodes_.size() == 1) return whole_;
     const auto counts_wholly = [&](const NodeWeight& one) {
       return one.node == below_ || one.node == below_ + 1 || part_of(one.node).value >= 1;
     };

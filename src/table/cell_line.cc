@@ -34,7 +34,8 @@ CombinedInterpolation::Sum<rows> CombinedInterpolation::sum_at(double progress, 
   for (const auto& [curve, weight] : weights.all) {
     const auto [value, slope] = along<rows>(*curve, progress);
     sum.value += weight.value * value;
-    for (int k = 0; k < coordinate_count; ++k) sum.gradient.col(k) += weight.gradient(k) * value;
+    for (int k = 0; k < coordinate_count; ++k)  // most do not depend on most coordinates
+      if (weight.gradient(k) != 0) sum.gradient.col(k) += weight.gradient(k) * value;
     sum.gradient.col(x_progress) += weight.value * slope;
   }
   return sum;
@@ -74,8 +75,11 @@ CombinedState CellLine::at(double progress) {
   go_to(progress);
   const auto sum = CombinedInterpolation::sum_at<CombinedInterpolation::padded_rows>(progress, weights_);
   CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), table_.is_inside(cell_)};
+  double known_power = 0, unit = 1;
   for (int row = log_area_row; row < row_count; ++row) {
-    const double power = table_.growth(row), unit = std::exp(power * progress);
+    const double power = table_.growth(row);
+    if (power != known_power) unit = std::exp(power * progress);
+    known_power = power;
     state.value(row) *= unit;
     state.gradient.row(row) *= unit;
     state.gradient(row, x_progress) += power * state.value(row);

@@ -211,7 +211,7 @@ CombinedInterpolation::CurveWeights CombinedInterpolation::curve_weights(const C
       by_fraction(fractions_, cell, x_fraction), by_radius(log_radii_, cell, x_radius);
   CurveWeights weights{{}, HUGE_VAL};
   auto& all = weights.all;
-  all.reserve(256);  // of four nodes of each of the four axes
+  all.reserve(by_axial.usual_nodes() * by_ratio.usual_nodes() * by_fraction.usual_nodes() * by_radius.usual_nodes());
   const auto part_until = [&](const CellFunction& end) {
     weights.last_progress = std::min(weights.last_progress, end.value);
     return part_of(end, progress);
