@@ -18,8 +18,6 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t block_size = event_block_size;
-
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
 template <std::size_t most>
 double variance_by_pixels(const GridAnswer& answer, const SmoothEventsOf<most>& smooth, Eigen::Index event) {
@@ -57,26 +55,31 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
   const std::size_t all = estimates.modulus_kPa.size();
   assert(events.size.size() == all && events.deformation.size() == all && events.viscosity_mPas.size() == all);
   assert(estimates.standard_error_kPa.size() == all && estimates.state.size() == all);
-  if (all <= few_events) return estimate_block<few_events>(conditions, events, estimates);
-  for (std::size_t first = 0; first < all; first += block_size) {
-    const std::size_t count = std::min(block_size, all - first);
-    estimate_block<block_size>(
-        conditions,
-                   {events.size.subspan(first, count), events.deformation.subspan(first, count),
-                    events.viscosity_mPas.subspan(first, count)},
-                   {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
-                    estimates.state.subspan(first, count)});
+  const auto estimate_together = [&](std::size_t first, std::size_t count, auto& smooth) {
+    const MeasuredEvents block{events.size.subspan(first, count), events.deformation.subspan(first, count),
+                               events.viscosity_mPas.subspan(first, count)};
+    remove_pixels(conditions, block, smooth);
+    estimate(conditions, block, smooth,
+             {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
+              estimates.state.subspan(first, count)});
+  };
+  if (all <= few_events) {
+    SmoothEventsOf<few_events> smooth;
+    return estimate_together(0, all, smooth);
   }
+  SmoothEventsOf<event_block_size> smooth;
+  for (std::size_t first = 0; first < all; first += event_block_size)
+    estimate_together(first, std::min(event_block_size, all - first), smooth);
 }
 
 template <std::size_t most>
-void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
-                             const EstimatedModuli& estimates) const {
+void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& block, SmoothEventsOf<most>& smooth,
+                       const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
+  assert(count <= most);
   constexpr std::size_t group_size = std::min<std::size_t>(most, 16);  // whole packets (whole_packets.h)
   using GroupColumn = Eigen::Array<double, group_size, 1>;
-  SmoothEventsOf<most> smooth;
-  remove_pixels(conditions, origin().flow, block, smooth);
+  scale_areas(conditions, origin().flow, count, smooth);
   const double factor = factor_per_mPas(conditions);
   std::array<GridAnswer, group_size> answers;  // of a few events: a single one is not slowed down by a block
   for (std::size_t first = 0; first < count; first += group_size) {
@@ -102,6 +105,11 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
     }
   }
 }
+
+template void GridMap::estimate(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<event_block_size>&,
+                                const EstimatedModuli&) const;
+template void GridMap::estimate(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<few_events>&,
+                                const EstimatedModuli&) const;
 
 // Without the very rim, where rounding decides whether there is a modulus.
 ModulusMap::Interval GridMap::areas() const {

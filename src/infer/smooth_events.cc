@@ -8,14 +8,12 @@ namespace rheocyte {
 
 // One packet after the other, whatever the number of events: the results of one do not depend on it.
 template <std::size_t most>
-void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& table, const MeasuredEvents& block,
-                   SmoothEventsOf<most>& smooth) {
+void remove_pixels(const MeasuringConditions& conditions, const MeasuredEvents& block, SmoothEventsOf<most>& smooth) {
   const std::size_t count = block.size.size();
   assert(count <= most && block.deformation.size() == count);
   const Eigen::Index rows = std::min(whole_packets(count), Eigen::Index(most));
   const bool has_pixels = conditions.pixel_size_um > 0;
-  const double log_factor = std::log(scale_factors(conditions.flow, table).area),
-               log_pixel_area = has_pixels ? 2 * std::log(conditions.pixel_size_um) : 0;
+  const double log_pixel_area = has_pixels ? 2 * std::log(conditions.pixel_size_um) : 0;
   for (Eigen::Index k = Eigen::Index(count) / packet_size * packet_size; k < rows; k += packet_size) {
     packet_at(smooth.log_measured_area, k) = 1;
     packet_at(smooth.deformation, k) = 0;
@@ -27,14 +25,14 @@ void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& tab
     for (Packet* packet : {&area, &deformation}) *packet += *packet - *packet;  // infinity is not a number either
     const Packet log_measured = area.log();
     packet_at(smooth.log_measured_area, k) = log_measured;
-    Packet log_area = log_measured + log_factor;
+    Packet log_area_factor = Packet::Zero();
     PixelErrorsOf<Packet> pixels{Packet::Ones(), Packet::Zero(), Packet::Zero(), Packet::Zero(), Packet::Zero()};
     if (has_pixels) {
       pixels = pixel_errors<Packet>(log_measured - log_pixel_area, deformation);
       deformation -= pixels.deformation_excess;
-      if (conditions.correct_area) log_area += pixels.area_factor.log();
+      if (conditions.correct_area) log_area_factor = pixels.area_factor.log();
     }
-    packet_at(smooth.log_area, k) = log_area;
+    packet_at(smooth.log_area_factor, k) = log_area_factor;
     packet_at(smooth.deformation, k) = deformation;
     packet_at(smooth.area_deviation, k) = pixels.area_deviation;
     packet_at(smooth.deformation_deviation, k) = pixels.deformation_deviation;
@@ -42,9 +40,7 @@ void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& tab
   }
 }
 
-template void remove_pixels(const MeasuringConditions&, const ChannelFlow&, const MeasuredEvents&,
-                            SmoothEventsOf<event_block_size>&);
-template void remove_pixels(const MeasuringConditions&, const ChannelFlow&, const MeasuredEvents&,
-                            SmoothEventsOf<few_events>&);
+template void remove_pixels(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<event_block_size>&);
+template void remove_pixels(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<few_events>&);
 
 }  // namespace rheocyte

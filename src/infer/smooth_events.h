@@ -2,6 +2,7 @@
 // channel of the table.
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
 
 #include "infer/modulus_map.h"
 #include "measurement/pixel_errors.h"
@@ -18,6 +19,7 @@ template <std::size_t most>
 struct SmoothEventsOf {
   using Column = Eigen::Array<double, most, 1>;
   Column log_measured_area;  ///< ln(um^2), as measured
+  Column log_area_factor;    ///< by which pixels change it
   Column log_area;           ///< ln(um^2) in the channel of the table
   Column deformation;        ///< may be negative
   /// Standard deviations and correlation by pixels; 0 where nothing is corrected.
@@ -31,10 +33,27 @@ auto packet_at(Column& column, Eigen::Index first) {
   return column.template segment<packet_size>(first);
 }
 
-/// Of at most so many events (asserted): event_block_size or few_events. Areas are corrected only where the conditions
-/// want it.
+/// All but the area in the channel of a table. Of at most so many events (asserted): event_block_size or few_events.
+/// Areas are corrected only where the conditions want it.
+template <std::size_t most>
+void remove_pixels(const MeasuringConditions& conditions, const MeasuredEvents& block, SmoothEventsOf<most>& smooth);
+
+/// The areas of the first events in the channel of a table.
+template <std::size_t most>
+void scale_areas(const MeasuringConditions& conditions, const ChannelFlow& table, std::size_t count,
+                 SmoothEventsOf<most>& smooth) {
+  const double log_factor = std::log(scale_factors(conditions.flow, table).area);
+  for (Eigen::Index k = 0; k < Eigen::Index(count); k += packet_size)
+    packet_at(smooth.log_area, k) =
+        packet_at(smooth.log_measured_area, k) + log_factor + packet_at(smooth.log_area_factor, k);
+}
+
+/// Both.
 template <std::size_t most>
 void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& table, const MeasuredEvents& block,
-                   SmoothEventsOf<most>& smooth);
+                   SmoothEventsOf<most>& smooth) {
+  remove_pixels(conditions, block, smooth);
+  scale_areas(conditions, table, block.size.size(), smooth);
+}
 
 }  // namespace rheocyte

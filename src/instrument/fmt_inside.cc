@@ -1,4 +1,5 @@
-// What other objects call of fmt's shared library, as functions of librheocyte_cell: fmt in its variant of headers only.
+// What other objects call of fmt's shared library, as functions of librheocyte_cell: fmt in its variant of headers
+// only.
 #ifndef FMT_HEADER_ONLY
 #define FMT_HEADER_ONLY
 #endif

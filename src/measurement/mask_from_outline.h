@@ -14,8 +14,8 @@ namespace rheocyte {
 /// of the first pixel is (0, 0). False if the polygon reaches beyond the centres of the outermost pixels.
 bool fill_mask(const Eigen::MatrixX2d& outline_px, ImageSize size, std::span<std::uint8_t> mask);
 
-/// take(row, x) where an edge from a to b crosses rows of pixels, whose numbers are not negative. A point on a row counts
-/// once.
+/// take(row, x) where an edge from a to b crosses rows of pixels, whose numbers are not negative. A point on a row
+/// counts once.
 template <class Take>
 void for_crossings(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b, const Take& take) {
   const auto [lower, upper] = std::minmax({a.y(), b.y()});

@@ -37,8 +37,8 @@ class AxisPolynomials {
       whole_.of(0) = {1};
       return;
     }
-    const auto counts_wholly = [](int) { return CellFunction{1}; };
-    whole_ = weights_of_parts(counts_wholly);
+    grow(
+        {below_, below_ + 2}, {1}, [](int) { return CellFunction{1}; }, whole_);
   }
 
   class Weights {
@@ -61,14 +61,16 @@ class AxisPolynomials {
   std::size_t usual_nodes() const { return std::min(nodes_.size(), std::size_t(most_nodes)); }
 
   /// Weights of the nodes. `part_of` gives how much one that is not next to the cell counts, from 0 to 1; what it
-  /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part.
+  /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part. `parts` keeps the
+  /// weights where some count in part.
   template <class Part>
-  Weights weights(const Part& part_of) const {
-    if (nodes_.size() == 1) return whole_;
+  const Weights& weights(const Part& part_of, std::optional<Weights>& parts) const {
     const auto counts_wholly = [&](const NodeWeight& one) {
       return one.node == below_ || one.node == below_ + 1 || part_of(one.node).value >= 1;
     };
-    return std::ranges::all_of(whole_, counts_wholly) ? whole_ : weights_of_parts(part_of);
+    if (std::ranges::all_of(whole_, counts_wholly)) return whole_;
+    grow({below_, below_ + 2}, {1}, part_of, parts.emplace());
+    return *parts;
   }
 
  private:
@@ -79,13 +81,6 @@ class AxisPolynomials {
   struct Polynomial {
     std::array<double, most_nodes> value, slope;
   };
-
-  template <class Part>
-  Weights weights_of_parts(const Part& part_of) const {
-    Weights weights;
-    grow({below_, std::min(below_ + 2, int(nodes_.size()))}, {1, CellCoordinates::Zero()}, part_of, weights);
-    return weights;
-  }
 
   /// Splits the weight between the window with the next node and without it, until it is full.
   template <class Part>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -218,19 +219,26 @@ CombinedInterpolation::CurveWeights CombinedInterpolation::curve_weights(const C
   };
   const auto add_radii = [&](int sheet, int fraction, const CellFunction& of_row) {
     const auto part = [&](int i) { return part_until(end(curve(sheet, fraction, i))); };
-    for (const auto& [radius, of_radius] : by_radius.weights(part))
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [radius, of_radius] : by_radius.weights(part, parts))
       if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
         all.push_back({&found, of_row * of_radius});
   };
   const auto add_sheet = [&](int sheet, const CellFunction& of_sheet) {
     const auto part = [&](int j) { return part_until(end(sheet, j, cell)); };
-    for (const auto& [fraction, of_fraction] : by_fraction.weights(part))
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [fraction, of_fraction] : by_fraction.weights(part, parts))
       add_radii(sheet, fraction, of_sheet * of_fraction);
   };
-  for (const auto& [axial, of_axial] : by_axial.weights([&](int i) { return part_until(axial_end(i, cell)); })) {
-    const auto part = [&, axial = axial](int i) { return part_until(sheet_end(sheet_of(axial, i), cell)); };
-    for (const auto& [ratio, of_ratio] : by_ratio.weights(part)) add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
-  }
+  const auto add_axial = [&](int axial, const CellFunction& of_axial) {
+    const auto part = [&](int i) { return part_until(sheet_end(sheet_of(axial, i), cell)); };
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [ratio, of_ratio] : by_ratio.weights(part, parts))
+      add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
+  };
+  const auto part = [&](int i) { return part_until(axial_end(i, cell)); };
+  std::optional<AxisPolynomials::Weights> parts;
+  for (const auto& [axial, of_axial] : by_axial.weights(part, parts)) add_axial(axial, of_axial);
   return weights;
 }
 

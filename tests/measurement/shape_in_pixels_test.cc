@@ -15,7 +15,8 @@ void expect_same(const Eigen::MatrixX2d& outline, double pixel_size_um) {
   CellRandom random(3, 0, Purpose::place);
   for (int i = 0; i < 100; ++i) {
     const Eigen::RowVector2d place(random.uniform() - 0.5, random.uniform() - 0.5);
-    const Eigen::Vector3d rows = figure.at(place), contour = features_in_pixels(outline, pixel_size_um, place).head<3>();
+    const Eigen::Vector3d rows = figure.at(place),
+                          contour = features_in_pixels(outline, pixel_size_um, place).head<3>();
     EXPECT_EQ(rows, contour) << rows.transpose() << " and " << contour.transpose();
   }
 }
