@@ -6,20 +6,17 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 import urllib.request
 from pathlib import Path
 
-from both import NATIVE, TOP, Differences, Native, Wine, kill, wait_for, why_not
+from both import TOP, Differences, Native, Wine, kill, wait_for, why_not
 
 # Both programs do the same in the same order, but for functions (exp, pow, sin) of two C libraries, whose last digits differ.
 # Newton's method carries that on to where it ends, and the last states of a branch depend on it most.
 CLOSED, STATES, NEARLY_UNSTABLE = 1e-12, 1e-10, 3e-7
-# Of single cells; the tension of a set-up is where a search ends.
-LIBRARY = 1e-9
 # Steps in time and coarse states on the way along a branch end within a tolerance of their own.
 WITHIN_TOLERANCE = {"square-channel": 1e-8, "paper-cell-in-time": 1e-9, "transit-square": 3e-8}
 IN_TIME = ("paper-cell-in-time", "transit-square")
@@ -392,75 +389,6 @@ class TestView(OnBoth):
             self.assertTrue(ours.startswith(b"{"), path)
             differences.json(path, json.loads(ours), json.loads(theirs))
         self.assert_same(differences)
-
-
-class TestLibrary(OnBoth):
-    """librheocyte_cell: a program in C that mingw links to the import library, and the same one here."""
-
-    MINGW = "x86_64-w64-mingw32-"
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.installed = cls.wine.program.parent
-        cls.library = NATIVE.parent / "src" / "instrument" / "librheocyte_cell.so.1"
-
-    def compile(self, compiler, source, *words):
-        done = subprocess.run([compiler, "-std=c11", "-Wall", "-Wextra", "-Werror", "-O2", source, *words],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-
-    def outputs(self, source, *words):
-        """What the program prints here and on Windows."""
-        ours, theirs = self.here / source.stem, self.installed / f"{source.stem}.exe"
-        self.compile("cc", source, f"-I{TOP / 'src' / 'instrument'}", self.library, "-lpthread", "-lm", "-o", ours)
-        self.compile(f"{self.MINGW}gcc", source, f"-I{self.installed / 'include'}", f"-L{self.installed / 'lib'}",
-                     "-lrheocyte_cell", "-static", "-lpthread", "-o", theirs)
-        environment = {**os.environ, "RHEOCYTE_TABLES": str(TOP / "data"), "LD_LIBRARY_PATH": str(self.library.parent)}
-        here = subprocess.run([ours, *words], env=environment, capture_output=True, check=False)
-        there = self.wine.call_other(theirs, *words)
-        self.assertEqual((here.returncode, there.returncode), (0, 0), here.stdout + there.stdout + there.stderr)
-        return here.stdout.decode(), there.stdout.decode().replace("\r\n", "\n")
-
-    def test_cells(self):
-        """Masks and features have the same numbers, with the tension of the tables found beside the library."""
-        ours, theirs = self.outputs(TOP / "tests/windows/cells.c")
-        self.assertGreater(ours.count("\n"), 1600)
-        differences = Differences(LIBRARY)
-        differences.table("cells", ours, theirs)
-        self.assert_same(differences)
-
-    def test_example(self):
-        """The ring buffer with three threads takes all cells, and its single cell is the same."""
-        ours, theirs = self.outputs(TOP / "examples/instrument/ring_buffer.c", "1000", "0")
-        differences = Differences(LIBRARY)
-        differences.table("cell", *(text.splitlines()[0] for text in (ours, theirs)))
-        self.assert_same(differences)
-        self.assertIn("1000 cells, 0 failed", theirs)
-
-    def test_library_needs_windows_alone(self):
-        """The library imports only libraries of Windows, and exports only the interface."""
-        shown = subprocess.run([f"{self.MINGW}objdump", "-p", self.installed / "rheocyte_cell.dll"], capture_output=True,
-                               text=True, check=True).stdout
-        imported = {name.lower() for name in re.findall(r"DLL Name: (\S+)", shown)}
-        self.assertLessEqual(imported, {"kernel32.dll", "msvcrt.dll", "advapi32.dll", "shell32.dll", "shlwapi.dll",
-                                        "user32.dll", "ws2_32.dll"})
-        exported = set(re.findall(r"^\s*\[ *\d+\].* (\w+)$", shown.partition("[Ordinal/Name Pointer]")[2], re.MULTILINE))
-        header = (self.installed / "include/rheocyte_cell.h").read_text("utf-8")
-        self.assertEqual(exported, set(re.findall(r"\b(rheocyte_cell_\w+)\(", header)))
-
-    def test_files_for_cmake_and_pkg_config(self):
-        """A program links to the library by find_package; what pkg-config says lies beside it."""
-        self.assertTrue((self.installed / "lib/pkgconfig/rheocyte_cell.pc").is_file())
-        folder = self.there / "by-cmake"
-        folder.mkdir()
-        (folder / "CMakeLists.txt").write_text(
-            "cmake_minimum_required(VERSION 3.25)\nproject(by_cmake LANGUAGES C)\nfind_package(rheocyte_cell REQUIRED)\n"
-            f"add_executable(by_cmake {TOP}/tests/windows/cells.c)\ntarget_link_libraries(by_cmake rheocyte::cell)\n")
-        for words in (["-S", folder, "-B", folder / "build", f"-DCMAKE_TOOLCHAIN_FILE={TOP}/cmake/windows.cmake",
-                       f"-DCMAKE_FIND_ROOT_PATH={self.installed}"], ["--build", folder / "build"]):
-            done = subprocess.run(["cmake", *words], capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
 if __name__ == "__main__":
