@@ -1,6 +1,7 @@
 # What `cpack` packs for Windows: one folder with the program and all that it needs.
 install(FILES LICENSE CITATION.cff CHANGELOG.md COMPONENT rheocyte DESTINATION .)
 install(FILES docs/windows.md COMPONENT rheocyte DESTINATION . RENAME README.md)
+install(FILES docs/instrument.md COMPONENT rheocyte DESTINATION .)
 install(DIRECTORY examples DESTINATION . COMPONENT rheocyte PATTERN "*.ipynb" EXCLUDE PATTERN "*.sh" EXCLUDE)
 install(DIRECTORY page/dist/ DESTINATION share/rheocyte/page COMPONENT rheocyte OPTIONAL)
 

@@ -15,7 +15,9 @@ inline constexpr double max_relative_standard_error = 1;
 /// What is known of inertia counts as an error of the modulus; an event beyond that is flagged.
 inline void add_inertia_error(double reynolds, double modulus_kPa, double& standard_error_kPa, ModulusState& state) {
   if (!has_modulus(state)) return;
-  standard_error_kPa = std::hypot(standard_error_kPa, modulus_per_reynolds * reynolds * modulus_kPa);
+  const double by_inertia = modulus_per_reynolds * reynolds * modulus_kPa;
+  // The same digits wherever it is compiled, in a fraction of the time of std::hypot.
+  standard_error_kPa = std::sqrt(std::fma(by_inertia, by_inertia, standard_error_kPa * standard_error_kPa));
   if (reynolds > max_reynolds_number) state = ModulusState::inertial;
 }
 

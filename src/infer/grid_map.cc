@@ -18,12 +18,9 @@ namespace rheocyte {
 
 namespace {
 
-constexpr std::size_t block_size = event_block_size;
-constexpr std::size_t group_size = 16;  ///< whole packets (whole_packets.h)
-using GroupColumn = Eigen::Array<double, group_size, 1>;
-
 // Variance of ln(modulus) by scattering area and deformation (eq:standard-error).
-double variance_by_pixels(const GridAnswer& answer, const SmoothEvents& smooth, Eigen::Index event) {
+template <std::size_t most>
+double variance_by_pixels(const GridAnswer& answer, const SmoothEventsOf<most>& smooth, Eigen::Index event) {
   const double by_area = answer.by_log_area * smooth.area_deviation[event];
   const double by_deformation =
       answer.by_log_deformation * smooth.deformation_deviation[event] / smooth.deformation[event];
@@ -58,28 +55,38 @@ void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEven
   const std::size_t all = estimates.modulus_kPa.size();
   assert(events.size.size() == all && events.deformation.size() == all && events.viscosity_mPas.size() == all);
   assert(estimates.standard_error_kPa.size() == all && estimates.state.size() == all);
-  for (std::size_t first = 0; first < all; first += block_size) {
-    const std::size_t count = std::min(block_size, all - first);
-    estimate_block(conditions,
-                   {events.size.subspan(first, count), events.deformation.subspan(first, count),
-                    events.viscosity_mPas.subspan(first, count)},
-                   {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
-                    estimates.state.subspan(first, count)});
+  const auto estimate_together = [&](std::size_t first, std::size_t count, auto& smooth) {
+    const MeasuredEvents block{events.size.subspan(first, count), events.deformation.subspan(first, count),
+                               events.viscosity_mPas.subspan(first, count)};
+    remove_pixels(conditions, block, smooth);
+    estimate(conditions, block, smooth,
+             {estimates.modulus_kPa.subspan(first, count), estimates.standard_error_kPa.subspan(first, count),
+              estimates.state.subspan(first, count)});
+  };
+  if (all <= few_events) {
+    SmoothEventsOf<few_events> smooth;
+    return estimate_together(0, all, smooth);
   }
+  SmoothEventsOf<event_block_size> smooth;
+  for (std::size_t first = 0; first < all; first += event_block_size)
+    estimate_together(first, std::min(event_block_size, all - first), smooth);
 }
 
-void GridMap::estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
-                             const EstimatedModuli& estimates) const {
+template <std::size_t most>
+void GridMap::estimate(const MeasuringConditions& conditions, const MeasuredEvents& block, SmoothEventsOf<most>& smooth,
+                       const EstimatedModuli& estimates) const {
   const std::size_t count = block.size.size();
-  SmoothEvents smooth;
-  remove_pixels(conditions, origin().flow, block, smooth);
+  assert(count <= most);
+  constexpr std::size_t group_size = std::min<std::size_t>(most, 16);  // whole packets (whole_packets.h)
+  using GroupColumn = Eigen::Array<double, group_size, 1>;
+  scale_areas(conditions, origin().flow, count, smooth);
   const double factor = factor_per_mPas(conditions);
   std::array<GridAnswer, group_size> answers;  // of a few events: a single one is not slowed down by a block
   for (std::size_t first = 0; first < count; first += group_size) {
     const std::size_t in_group = std::min(group_size, count - first);
     const auto row = static_cast<Eigen::Index>(first);
     // A deformation below zero is one that is too small, not one that is missing.
-    const GroupColumn log_deformation = smooth.deformation.segment<group_size>(row).max(0).log();
+    const GroupColumn log_deformation = smooth.deformation.template segment<group_size>(row).max(0).log();
     grid_.answer({smooth.log_area.data() + first, in_group}, {log_deformation.data(), in_group},
                  {answers.data(), in_group});
     GroupColumn modulus = GroupColumn::Zero();
@@ -98,6 +105,11 @@ void GridMap::estimate_block(const MeasuringConditions& conditions, const Measur
     }
   }
 }
+
+template void GridMap::estimate(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<event_block_size>&,
+                                const EstimatedModuli&) const;
+template void GridMap::estimate(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<few_events>&,
+                                const EstimatedModuli&) const;
 
 // Without the very rim, where rounding decides whether there is a modulus.
 ModulusMap::Interval GridMap::areas() const {

@@ -5,6 +5,7 @@
 
 #include "infer/modulus_map.h"
 #include "infer/shape_map.h"
+#include "infer/smooth_events.h"
 #include "table/stiffness_grid.h"
 
 namespace rheocyte {
@@ -19,6 +20,11 @@ class GridMap : public ModulusMap {
   /// The standard error comes from the scatter by pixels and the table's error (eq:standard-error).
   void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events,
                 const EstimatedModuli& moduli) const override;
+  /// Of at most so many events (asserted), event_block_size or few_events, from which `remove_pixels` has removed the
+  /// pixels: several tables need that once. Scales their areas to the channel of the table.
+  template <std::size_t most>
+  void estimate(const MeasuringConditions& conditions, const MeasuredEvents& events, SmoothEventsOf<most>& smooth,
+                const EstimatedModuli& moduli) const;
 
   /// Where the bare surface is smooth.
   Interval areas() const override;
@@ -27,9 +33,6 @@ class GridMap : public ModulusMap {
   PlanePoint seen_through_pixels(const PlanePoint& cell, double pixel_size_um) const override;
 
  private:
-  void estimate_block(const MeasuringConditions& conditions, const MeasuredEvents& block,
-                      const EstimatedModuli& moduli) const;
-
   StiffnessGrid grid_;
   std::unique_ptr<const ShapeMap> shapes_;
 };

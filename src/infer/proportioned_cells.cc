@@ -92,7 +92,19 @@ ProportionedCells::ProportionedCells(const CombinedTable& table)
 }
 
 double ProportionedCells::effective_modulus_kPa(const CellCoordinates& cell) const {
-  return rheocyte::effective_modulus_kPa(fit_.at_rest(), cell, between_.at(cell)).value;
+  CombinedState state;
+  state.value.setZero();
+  state.value(log_stiffness_row) = between_.line(cell).log_stiffness(cell(x_progress)).value;
+  state.gradient.setZero();
+  return rheocyte::effective_modulus_kPa(fit_.at_rest(), cell, state).value;
+}
+
+ShapeVector ProportionedCells::in_tube(const CellCoordinates& cell, const ChannelFlow& flow) const {
+  const auto values = between_.values_at(cell);
+  ShapeVector shape;
+  for (int feature = 0; feature < feature_count; ++feature) shape(feature) = values(row_of(feature));
+  shape(int(ShapeFeature::area_um2)) += std::log(scale_factors(simulated_, flow).area);
+  return shape;
 }
 
 CellInSquare ProportionedCells::in_square(const CellCoordinates& cell, const ShapeVector& smooth,
@@ -122,12 +134,12 @@ ShapeErrors ProportionedCells::added_by_section(const CellCoordinates& cell, con
 }
 
 ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, const Sight& sight) const {
-  return change_by_section(cell, fit_.shape_of(cell, sight.flow), sight, rounds_of_section);
+  return change_by_section(cell, in_tube(cell, sight.flow), sight, rounds_of_section);
 }
 
 ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
                                                   double pixel_size_um) const {
-  const ShapeVector in_tube = fit_.shape_of(held_inside(cell), sight.flow);
+  const ShapeVector in_tube = this->in_tube(held_inside(cell), sight.flow);
   ShapeErrors by_square = added_by_section(cell, in_tube, sight);
   by_square.covariance *= sight.error_factor * sight.error_factor;
   if (!(pixel_size_um > 0)) return {by_square, {}};
@@ -146,10 +158,12 @@ ShapeVector ProportionedCells::mean_of_pixels(const ShapeVector& smooth, double 
   constexpr double along = 0.7548776662466927, across = 0.5698402909980532;
   const auto part = [](double number) { return number - std::floor(number); };
   const Eigen::MatrixX2d outline = outline_of(smooth);
-  const OutlineShape of_outline = outline_shape(outline);
-  ShapeErrors by_pixels{-shape_vector(of_outline), ShapeErrors{}.covariance};
-  for (int i = 0; i < places; ++i)
-    by_pixels.bias += features_in_pixels(outline, pixel_size_um, {part(i * along), part(i * across)}) / places;
+  const OutlineShape of_outline = outline_figure(outline);
+  FigureInPixels figure(outline, pixel_size_um);
+  Eigen::Vector3d mean = -shape_vector(of_outline).head<3>();
+  for (int i = 0; i < places; ++i) mean += figure.at({part(i * along), part(i * across)}) / places;
+  ShapeErrors by_pixels;
+  by_pixels.bias.head<3>() = mean;
   add_lost_corners(smooth(int(ShapeFeature::deformation)) - of_outline.deformation, by_pixels);
   return by_pixels.bias;
 }

@@ -49,14 +49,17 @@ class ProportionedCells {
   double effective_modulus_kPa(const CellCoordinates& cell) const;
   /// What the section of the channel adds to the features of a cell of the table, on average.
   ShapeVector change_by_section(const CellCoordinates& cell, const Sight& sight) const;
-  /// What pixels add to the features of a smooth shape on average over all places on the camera.
+  /// What pixels add to area, deformation and Lambda1 / Lambda2 of a smooth shape on average over all places on the
+  /// camera; modes stay.
   ShapeVector mean_of_pixels(const ShapeVector& smooth, double pixel_size_um) const;
   /// Of a cell of the table, as it is seen without pixels.
   ShapeVector smooth_shape(const CellCoordinates& cell, const Sight& sight) const {
-    return fit_.shape_of(cell, sight.flow) + change_by_section(cell, sight);
+    return in_tube(cell, sight.flow) + change_by_section(cell, sight);
   }
 
  private:
+  /// Of a cell of the table in the tube, without pixels.
+  ShapeVector in_tube(const CellCoordinates& cell, const ChannelFlow& flow) const;
   /// Of a cell of the table with a shape that is seen.
   CellInSquare in_square(const CellCoordinates& cell, const ShapeVector& smooth, const Sight& sight) const;
   ShapeVector change_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight,

@@ -6,34 +6,41 @@
 
 namespace rheocyte {
 
-void remove_pixels(const MeasuringConditions& conditions, const ChannelFlow& table, const MeasuredEvents& block,
-                   SmoothEvents& smooth) {
+// One packet after the other, whatever the number of events: the results of one do not depend on it.
+template <std::size_t most>
+void remove_pixels(const MeasuringConditions& conditions, const MeasuredEvents& block, SmoothEventsOf<most>& smooth) {
   const std::size_t count = block.size.size();
-  assert(count <= event_block_size && block.deformation.size() == count);
-  const Eigen::Index rows = whole_packets(count);
-  smooth.log_measured_area.head(rows) = 1;
-  smooth.deformation.head(rows) = 0;
+  assert(count <= most && block.deformation.size() == count);
+  const Eigen::Index rows = std::min(whole_packets(count), Eigen::Index(most));
+  const bool has_pixels = conditions.pixel_size_um > 0;
+  const double log_pixel_area = has_pixels ? 2 * std::log(conditions.pixel_size_um) : 0;
+  for (Eigen::Index k = Eigen::Index(count) / packet_size * packet_size; k < rows; k += packet_size) {
+    packet_at(smooth.log_measured_area, k) = 1;
+    packet_at(smooth.deformation, k) = 0;
+  }
   std::ranges::copy(block.size, smooth.log_measured_area.data());
   std::ranges::copy(block.deformation, smooth.deformation.data());
-  for (EventColumn* column : {&smooth.log_measured_area, &smooth.deformation})
-    column->head(rows) += column->head(rows) - column->head(rows);  // infinity is not a number either
-  smooth.log_measured_area.head(rows) = smooth.log_measured_area.head(rows).log();
-  smooth.log_area.head(rows) =
-      smooth.log_measured_area.head(rows) + std::log(scale_factors(conditions.flow, table).area);
-  for (EventColumn* column : {&smooth.area_deviation, &smooth.deformation_deviation, &smooth.correlation})
-    column->head(rows) = 0;
-  if (!(conditions.pixel_size_um > 0)) return;
-  const double log_pixel_area = 2 * std::log(conditions.pixel_size_um);
   for (Eigen::Index k = 0; k < rows; k += packet_size) {
-    const Packet log_area_px = packet_at(smooth.log_measured_area, k) - log_pixel_area,
-                 deformation = packet_at(smooth.deformation, k);
-    const auto pixels = pixel_errors(log_area_px, deformation);
-    packet_at(smooth.deformation, k) -= pixels.deformation_excess;
-    if (conditions.correct_area) packet_at(smooth.log_area, k) += pixels.area_factor.log();
+    Packet area = packet_at(smooth.log_measured_area, k), deformation = packet_at(smooth.deformation, k);
+    for (Packet* packet : {&area, &deformation}) *packet += *packet - *packet;  // infinity is not a number either
+    const Packet log_measured = area.log();
+    packet_at(smooth.log_measured_area, k) = log_measured;
+    Packet log_area_factor = Packet::Zero();
+    PixelErrorsOf<Packet> pixels{Packet::Ones(), Packet::Zero(), Packet::Zero(), Packet::Zero(), Packet::Zero()};
+    if (has_pixels) {
+      pixels = pixel_errors<Packet>(log_measured - log_pixel_area, deformation);
+      deformation -= pixels.deformation_excess;
+      if (conditions.correct_area) log_area_factor = pixels.area_factor.log();
+    }
+    packet_at(smooth.log_area_factor, k) = log_area_factor;
+    packet_at(smooth.deformation, k) = deformation;
     packet_at(smooth.area_deviation, k) = pixels.area_deviation;
     packet_at(smooth.deformation_deviation, k) = pixels.deformation_deviation;
     packet_at(smooth.correlation, k) = pixels.correlation;
   }
 }
+
+template void remove_pixels(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<event_block_size>&);
+template void remove_pixels(const MeasuringConditions&, const MeasuredEvents&, SmoothEventsOf<few_events>&);
 
 }  // namespace rheocyte

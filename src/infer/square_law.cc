@@ -1,8 +1,8 @@
 #include "infer/square_law.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "infer/square_changes.h"
 
@@ -19,6 +19,16 @@ constexpr std::array<Range, 6> ranges{{{0.40, 0.82}, {-0.06, 0.42}, {0, 0.12}, {
 using Places = std::array<double, ranges.size()>;
 
 constexpr int features = int(square_changes.size());  // the first ones
+constexpr std::size_t term_count = square_changes[0].size();
+
+/// The coefficients of one term of all features, in whole packets of the processor.
+using OfFeatures = Eigen::Array<double, (features + 3) / 4 * 4, 1>;
+constexpr auto changes_by_term = [] {
+  std::array<std::array<double, OfFeatures::SizeAtCompileTime>, term_count> by_term{};
+  for (std::size_t i = 0; i < std::size_t(features); ++i)
+    for (std::size_t term = 0; term < term_count; ++term) by_term[term][i] = square_changes[i][term];
+  return by_term;
+}();
 
 /// Each from -1 to 1 in its range.
 Places places_of(const CellInSquare& cell) {
@@ -40,8 +50,8 @@ bool is_odd_mode(int feature) {
 }
 
 /// Products of up to three of them.
-std::array<double, square_changes[0].size()> terms_of(const Places& places) {
-  std::array<double, square_changes[0].size()> terms;
+std::array<double, term_count> terms_of(const Places& places) {
+  std::array<double, term_count> terms;
   auto next = terms.begin();
   *next++ = 1;
   next = std::ranges::copy(places, next).out;
@@ -58,11 +68,11 @@ std::array<double, square_changes[0].size()> terms_of(const Places& places) {
 ShapeVector mean_change_by_square(const CellInSquare& cell) {
   const auto terms = terms_of(places_of(cell));
   const double mode_3 = std::clamp(cell.mode_3, ranges[2].least, ranges[2].greatest);
+  OfFeatures sum = OfFeatures::Zero();
+  for (std::size_t term = 0; term < term_count; ++term)
+    sum += terms[term] * Eigen::Map<const OfFeatures>(changes_by_term[term].data());
   ShapeVector change = ShapeVector::Zero();
-  for (int i = 0; i < features; ++i) {
-    const auto& coefficients = square_changes[std::size_t(i)];
-    change(i) = mode_3 * std::inner_product(terms.begin(), terms.end(), coefficients.begin(), 0.0);
-  }
+  change.head<features>() = mode_3 * sum.head<features>();
   return change;
 }
 

@@ -60,6 +60,11 @@ ChannelFlow flow_of(const rheocyte_cell_settings& settings) {
   return flow;
 }
 
+const GridMap& grid_of(const ModulusMap& map) {
+  if (const auto* const grid = dynamic_cast<const GridMap*>(&map)) return *grid;
+  throw UserError("librheocyte_cell takes no published tables; give a table of rheocyte (grid_*.cbor).");
+}
+
 }  // namespace
 
 MeasuringConditions conditions_of(const rheocyte_cell_settings& settings) {
@@ -70,7 +75,7 @@ MeasuringConditions conditions_of(const rheocyte_cell_settings& settings) {
 MeasuredSetUp::MeasuredSetUp(const rheocyte_cell_settings& settings)
     : conditions(conditions_of(settings)),
       tables(text_of(settings.table), {}, to_path(text_of(settings.tables_folder))),
-      map(&tables.used(conditions.flow.exponent)),
+      map(&grid_of(tables.used(conditions.flow.exponent))),
       reynolds(reynolds_at_1_mPas(conditions.flow) / conditions.flow.viscosity_mPas),
       viscosity_mPas(SetUp::most_together, conditions.flow.viscosity_mPas) {}
 

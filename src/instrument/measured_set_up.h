@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include "infer/modulus_map.h"
+#include "infer/grid_map.h"
 #include "instrument/rheocyte_cell.h"
 #include "shelf/modulus_tables.h"
 
@@ -21,7 +21,7 @@ struct MeasuredSetUp {
 
   MeasuringConditions conditions;
   ModulusTables tables;
-  const ModulusMap* map;  ///< of the tables
+  const GridMap* map;  ///< of the tables
   double reynolds;
   std::vector<double> viscosity_mPas;  ///< the same of each of the cells that are computed together
 

@@ -38,9 +38,11 @@ struct Moduli {
 };
 
 /// With the errors and states that `rheocyte extract` gives to events.
-void estimate(const ModulusMap& map, const MeasuredSetUp& measured, const MeasuredEvents& events, Moduli& moduli) {
+template <std::size_t most>
+void estimate(const GridMap& map, const MeasuredSetUp& measured, const MeasuredEvents& events,
+              SmoothEventsOf<most>& smooth, Moduli& moduli) {
   const std::size_t count = events.size.size();
-  map.estimate(measured.conditions, events,
+  map.estimate(measured.conditions, events, smooth,
                {{moduli.kPa.data(), count}, {moduli.error_kPa.data(), count}, {moduli.state.data(), count}});
   for (std::size_t i = 0; i < count; ++i) {
     add_inertia_error(measured.reynolds, moduli.kPa[i], moduli.error_kPa[i], moduli.state[i]);
@@ -99,13 +101,23 @@ std::unique_ptr<SetUp> SetUp::refreshed(const EventFigures& cells) const {
 double SetUp::pixel_size_um() const { return measured_->conditions.pixel_size_um; }
 
 void SetUp::add_moduli(std::span<rheocyte_cell_result> cells) const {
+  if (cells.size() <= few_events)
+    add_moduli<few_events>(cells);
+  else
+    add_moduli<event_block_size>(cells);
+}
+
+template <std::size_t most>
+void SetUp::add_moduli(std::span<rheocyte_cell_result> cells) const {
   std::array<double, most_together> area, deformation;
   for (std::size_t i = 0; i < cells.size(); ++i) area[i] = cells[i].area_um2, deformation[i] = cells[i].deformation;
   const std::size_t count = cells.size();
   const MeasuredEvents events{
       {area.data(), count}, {deformation.data(), count}, {measured_->viscosity_mPas.data(), count}};
+  SmoothEventsOf<most> smooth;
+  remove_pixels(measured_->conditions, events, smooth);
   Moduli young;
-  estimate(*measured_->map, *measured_, events, young);
+  estimate(*measured_->map, *measured_, events, smooth, young);
   for (std::size_t i = 0; i < count; ++i) {
     rheocyte_cell_result& cell = cells[i];
     cell.young_modulus_kPa = young.kPa[i];
@@ -119,8 +131,8 @@ void SetUp::add_moduli(std::span<rheocyte_cell_result> cells) const {
   }
   if (!under_tension_) return;
   Moduli effective, stiffness;
-  estimate(under_tension_->effective_modulus, *measured_, events, effective);
-  estimate(under_tension_->stiffness, *measured_, events, stiffness);
+  estimate(under_tension_->effective_modulus, *measured_, events, smooth, effective);
+  estimate(under_tension_->stiffness, *measured_, events, smooth, stiffness);
   for (std::size_t i = 0; i < count; ++i) {
     rheocyte_cell_result& cell = cells[i];
     cell.effective_modulus_kPa = effective.kPa[i];

@@ -59,6 +59,8 @@ class SetUp {
 
   SetUp(std::shared_ptr<const MeasuredSetUp> measured, const rheocyte_cell_tension& tension);
   void take_tension(const ChannelFlow& flow);
+  template <std::size_t most>
+  void add_moduli(std::span<rheocyte_cell_result> cells) const;
 
   std::shared_ptr<const MeasuredSetUp> measured_;
   rheocyte_cell_tension tension_;

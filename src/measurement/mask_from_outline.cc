@@ -1,7 +1,5 @@
 #include "measurement/mask_from_outline.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,13 +12,9 @@ bool fill_mask(const Eigen::MatrixX2d& outline, ImageSize size, std::span<std::u
       !(high.y() <= static_cast<double>(size.height - 1)))
     return false;
   std::vector<std::pair<std::size_t, double>> crossings;  // of edges with rows: the row, x
-  for (Eigen::Index i = 0; i < outline.rows(); ++i) {
-    const auto a = outline.row(i), b = outline.row((i + 1) % outline.rows());
-    const auto [lower, upper] = std::minmax({a.y(), b.y()});
-    // A point on a row counts once.
-    for (auto y = static_cast<std::size_t>(std::ceil(lower)); static_cast<double>(y) < upper; ++y)
-      crossings.emplace_back(y, a.x() + (static_cast<double>(y) - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-  }
+  for (Eigen::Index i = 0; i < outline.rows(); ++i)
+    for_crossings(outline.row(i), outline.row((i + 1) % outline.rows()),
+                  [&](std::size_t y, double x) { crossings.emplace_back(y, x); });
   std::ranges::sort(crossings);
   for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
     const auto [y, first] = crossings[k];

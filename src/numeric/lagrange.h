@@ -23,15 +23,23 @@ inline std::vector<double> chebyshev_points(double first, double last, int count
   return points;
 }
 
-inline LagrangeWeights lagrange_weights(std::span<const double> nodes, double x) {
-  LagrangeWeights weights{std::vector<double>(nodes.size(), 1), std::vector<double>(nodes.size(), 0)};
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+/// The same, written to spans as long as the nodes.
+inline void lagrange_weights(std::span<const double> nodes, double x, std::span<double> value,
+                             std::span<double> slope) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    value[i] = 1, slope[i] = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (k == i) continue;
       const double factor = 1 / (nodes[i] - nodes[k]);
-      weights.slope[i] = weights.slope[i] * (x - nodes[k]) * factor + weights.value[i] * factor;
-      weights.value[i] *= (x - nodes[k]) * factor;
+      slope[i] = slope[i] * (x - nodes[k]) * factor + value[i] * factor;
+      value[i] *= (x - nodes[k]) * factor;
     }
+  }
+}
+
+inline LagrangeWeights lagrange_weights(std::span<const double> nodes, double x) {
+  LagrangeWeights weights{std::vector<double>(nodes.size()), std::vector<double>(nodes.size())};
+  lagrange_weights(nodes, x, weights.value, weights.slope);
   return weights;
 }
 

@@ -130,7 +130,24 @@ Harmonics<double, last> radius_integrals(const Polygon& hull, const PolygonMomen
   return integral;
 }
 
+OutlineShape figure_of(const PolygonMoments& m) {
+  return {m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.mu02 / m.mu20, m.x, m.y};
+}
+
+Polygon polygon_of_hull(const Eigen::MatrixX2d& polygon) {
+  Polygon hull;
+  hull.assign(hull_of(polygon));
+  return hull;
+}
+
 }  // namespace
+
+OutlineShape hull_figure(const Polygon& hull) {
+  if (hull.corners() < 3) return {no_value, no_value, no_value, no_value, no_value};
+  return figure_of(hull.moments());
+}
+
+OutlineShape outline_figure(const Eigen::MatrixX2d& polygon) { return hull_figure(polygon_of_hull(polygon)); }
 
 OutlineShape hull_shape(const Polygon& hull) {
   if (hull.corners() < 3) {
@@ -139,7 +156,7 @@ OutlineShape hull_shape(const Polygon& hull) {
     return none;
   }
   const PolygonMoments m = hull.moments();
-  OutlineShape shape{m.area, 1 - 2 * std::sqrt(std::numbers::pi * m.area) / m.perimeter, m.mu02 / m.mu20, m.x, m.y};
+  OutlineShape shape = figure_of(m);
   const auto integral = radius_integrals<max_mode>(hull, m);
   shape.mean_radius = integral.cosine[0] / (2 * std::numbers::pi);
   for (int k = min_mode; k <= max_mode; ++k) shape.modes[std::size_t(k - min_mode)] = integral.c(k);
@@ -163,11 +180,7 @@ HullAsymmetry hull_asymmetry(const Polygon& hull) {
           integral.c(4),   integral.c(5), {integral.s(2), integral.s(3), integral.s(4)}};
 }
 
-OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) {
-  Polygon hull;
-  hull.assign(hull_of(polygon));
-  return hull_shape(hull);
-}
+OutlineShape outline_shape(const Eigen::MatrixX2d& polygon) { return hull_shape(polygon_of_hull(polygon)); }
 
 ShapeVector shape_vector(const OutlineShape& shape) {
   ShapeVector vector;

@@ -44,9 +44,12 @@ struct ShapeErrors {
 
 /// Points (x, y) in order, the first one not repeated, at least one; NaN everywhere if all lie on a line.
 OutlineShape outline_shape(const Eigen::MatrixX2d& polygon);
+/// The same without its radius and modes, which take most of the time.
+OutlineShape outline_figure(const Eigen::MatrixX2d& polygon);
 
 /// The same of a polygon that is its own hull: counterclockwise, without points on its edges. NaN below three points.
 OutlineShape hull_shape(const Polygon& hull);
+OutlineShape hull_figure(const Polygon& hull);
 
 /// The first of its modes alone.
 RadiusModes hull_modes(const Polygon& hull);

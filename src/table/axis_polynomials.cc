@@ -5,10 +5,8 @@ namespace rheocyte {
 const AxisPolynomials::Polynomial& AxisPolynomials::through(int first, int end) const {
   auto& known = known_[std::size_t(below_ - first)][std::size_t(std::max(end - below_ - 2, 0))];
   if (known) return *known;
-  const auto found = lagrange_weights(nodes_.subspan(std::size_t(first), std::size_t(end - first)), place_);
   known.emplace();
-  std::ranges::copy(found.value, known->value.begin());
-  std::ranges::copy(found.slope, known->slope.begin());
+  lagrange_weights(nodes_.subspan(std::size_t(first), std::size_t(end - first)), place_, known->value, known->slope);
   return *known;
 }
 

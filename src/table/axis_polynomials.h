@@ -33,8 +33,12 @@ class AxisPolynomials {
   /// The nodes must outlive it.
   AxisPolynomials(std::span<const double> nodes, const CellCoordinates& cell, int coordinate)
       : nodes_(nodes), place_(cell(coordinate)), coordinate_(coordinate), below_(interval_of(nodes, place_)) {
-    const auto counts_wholly = [](int) { return CellFunction{1}; };
-    whole_ = weights_of_parts(counts_wholly);
+    if (nodes.size() == 1) {
+      whole_.of(0) = {1};
+      return;
+    }
+    grow(
+        {below_, below_ + 2}, {1}, [](int) { return CellFunction{1}; }, whole_);
   }
 
   class Weights {
@@ -53,14 +57,20 @@ class AxisPolynomials {
     int count_ = 0;
   };
 
+  /// Of a cell far from the ends of branches.
+  std::size_t usual_nodes() const { return std::min(nodes_.size(), std::size_t(most_nodes)); }
+
   /// Weights of the nodes. `part_of` gives how much one that is not next to the cell counts, from 0 to 1; what it
-  /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part.
+  /// leaves belongs to the polynomial without it, so that the sum changes smoothly with the part. `parts` keeps the
+  /// weights where some count in part.
   template <class Part>
-  Weights weights(const Part& part_of) const {
+  const Weights& weights(const Part& part_of, std::optional<Weights>& parts) const {
     const auto counts_wholly = [&](const NodeWeight& one) {
       return one.node == below_ || one.node == below_ + 1 || part_of(one.node).value >= 1;
     };
-    return std::ranges::all_of(whole_, counts_wholly) ? whole_ : weights_of_parts(part_of);
+    if (std::ranges::all_of(whole_, counts_wholly)) return whole_;
+    grow({below_, below_ + 2}, {1}, part_of, parts.emplace());
+    return *parts;
   }
 
  private:
@@ -71,13 +81,6 @@ class AxisPolynomials {
   struct Polynomial {
     std::array<double, most_nodes> value, slope;
   };
-
-  template <class Part>
-  Weights weights_of_parts(const Part& part_of) const {
-    Weights weights;
-    grow({below_, std::min(below_ + 2, int(nodes_.size()))}, {1, CellCoordinates::Zero()}, part_of, weights);
-    return weights;
-  }
 
   /// Splits the weight between the window with the next node and without it, until it is full.
   template <class Part>

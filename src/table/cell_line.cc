@@ -8,34 +8,59 @@
 
 namespace rheocyte {
 
-// Beyond its ends straight on.
-template <int rows>
-std::pair<Eigen::Matrix<double, rows, 1>, Eigen::Matrix<double, rows, 1>> CombinedInterpolation::along(
-    const Curve& branch, double progress) {
-  const auto first = [](const Row& row) { return row.head<rows>(); };
-  if (progress < branch.place.front() || progress > branch.place.back()) {
-    const auto end = progress > branch.place.front() ? branch.place.size() - 1 : 0;
-    const auto& [value, slope] = branch.samples[end];
-    return {first(value) + (progress - branch.place[end]) * first(slope), first(slope)};
+/// Where a progress lies on a curve: between two samples, or beyond its ends, where it goes straight on.
+class CombinedInterpolation::OnCurve {
+ public:
+  OnCurve(const Curve& curve, double progress) {
+    const auto& place = curve.place;
+    if (progress < place.front() || progress > place.back()) {
+      const auto end = progress > place.front() ? place.size() - 1 : 0;
+      before_ = &curve.samples[end];
+      place_ = progress - place[end];
+      return;
+    }
+    const auto k = std::size_t(interval_of(place, progress));
+    before_ = &curve.samples[k];
+    after_ = before_ + 1;
+    distance_ = place[k + 1] - place[k];
+    place_ = (progress - place[k]) / distance_;
   }
-  const auto k = std::size_t(interval_of(branch.place, progress));
-  const double h = branch.place[k + 1] - branch.place[k], t = (progress - branch.place[k]) / h;
-  const auto &a = branch.samples[k], &b = branch.samples[k + 1];
-  const auto sum = [&](const HermiteWeights& w, double unit) {
-    return unit * (w.first * first(a.value) + w.last * first(b.value)) +
-           unit * h * (w.first_slope * first(a.slope) + w.last_slope * first(b.slope));
-  };
-  return {sum(hermite(t), 1), sum(hermite_slope(t), 1 / h)};
-}
+
+  /// Of the first rows; the slope over ln of the progress.
+  template <int rows>
+  Eigen::Matrix<double, rows, 1> value() const {
+    const auto& [value, slope] = *before_;
+    if (after_ == nullptr) return value.template head<rows>() + place_ * slope.template head<rows>();
+    return sum<rows>(hermite(place_), 1);
+  }
+  template <int rows>
+  Eigen::Matrix<double, rows, 1> slope() const {
+    if (after_ == nullptr) return before_->slope.template head<rows>();
+    return sum<rows>(hermite_slope(place_), 1 / distance_);
+  }
+
+ private:
+  template <int rows>
+  Eigen::Matrix<double, rows, 1> sum(const HermiteWeights& w, double unit) const {
+    const auto first = [](const Row& row) { return row.head<rows>(); };
+    return unit * (w.first * first(before_->value) + w.last * first(after_->value)) +
+           unit * distance_ * (w.first_slope * first(before_->slope) + w.last_slope * first(after_->slope));
+  }
+
+  const Curve::Sample *before_ = nullptr, *after_ = nullptr;
+  double distance_ = 0, place_ = 0;
+};
 
 template <int rows>
 CombinedInterpolation::Sum<rows> CombinedInterpolation::sum_at(double progress, const CurveWeights& weights) {
   Sum<rows> sum;
   for (const auto& [curve, weight] : weights.all) {
-    const auto [value, slope] = along<rows>(*curve, progress);
+    const OnCurve here(*curve, progress);
+    const Eigen::Matrix<double, rows, 1> value = here.value<rows>();
     sum.value += weight.value * value;
-    for (int k = 0; k < coordinate_count; ++k) sum.gradient.col(k) += weight.gradient(k) * value;
-    sum.gradient.col(x_progress) += weight.value * slope;
+    for (int k = 0; k < coordinate_count; ++k)  // most do not depend on most coordinates
+      if (weight.gradient(k) != 0) sum.gradient.col(k) += weight.gradient(k) * value;
+    sum.gradient.col(x_progress) += weight.value * here.slope<rows>();
   }
   return sum;
 }
@@ -45,10 +70,27 @@ std::vector<BranchWeight> CombinedInterpolation::weights(const CellCoordinates& 
   std::vector<BranchWeight> all;
   const double progress = cell(x_progress);
   for (const auto& [curve, weight] : curve_weights(cell).all) {
-    const double log_stiffness = along<1>(*curve, progress).first(log_stiffness_row);
+    const double log_stiffness = OnCurve(*curve, progress).value<1>()(log_stiffness_row);
     all.push_back({curve->branch, weight.value, std::exp(log_stiffness - growth(log_stiffness_row) * progress)});
   }
   return all;
+}
+
+Eigen::Matrix<double, row_count, 1> CombinedInterpolation::values_at(const CellCoordinates& cell) const {
+  const double progress = cell(x_progress);
+  Row sum = Row::Zero();
+  for (const auto& [curve, weight] : curve_weights(cell).all)
+    sum += weight.value * OnCurve(*curve, progress).value<padded_rows>();
+  double known_power = 0, unit = 1;
+  for (int row = log_area_row; row < row_count; ++row) {
+    if (growth(row) != known_power) unit = std::exp(growth(row) * progress);
+    known_power = growth(row);
+    sum(row) *= unit;
+  }
+  sum(log_stiffness_row) -= growth(log_stiffness_row) * progress;
+  sum(log_area_row) += std::log(std::numbers::pi) + 2 * cell(x_radius);
+  sum(moment_ratio_row) += 1;
+  return sum.head<row_count>();
 }
 
 CellLine CombinedInterpolation::line(const CellCoordinates& cell) const { return {*this, cell}; }
@@ -74,8 +116,11 @@ CombinedState CellLine::at(double progress) {
   go_to(progress);
   const auto sum = CombinedInterpolation::sum_at<CombinedInterpolation::padded_rows>(progress, weights_);
   CombinedState state{sum.value.head<row_count>(), sum.gradient.topRows<row_count>(), table_.is_inside(cell_)};
+  double known_power = 0, unit = 1;
   for (int row = log_area_row; row < row_count; ++row) {
-    const double power = table_.growth(row), unit = std::exp(power * progress);
+    const double power = table_.growth(row);
+    if (power != known_power) unit = std::exp(power * progress);
+    known_power = power;
     state.value(row) *= unit;
     state.gradient.row(row) *= unit;
     state.gradient(row, x_progress) += power * state.value(row);

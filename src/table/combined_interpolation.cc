@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -209,26 +210,33 @@ CombinedInterpolation::CurveWeights CombinedInterpolation::curve_weights(const C
       by_fraction(fractions_, cell, x_fraction), by_radius(log_radii_, cell, x_radius);
   CurveWeights weights{{}, HUGE_VAL};
   auto& all = weights.all;
-  all.reserve(256);  // of four nodes of each of the four axes
+  all.reserve(by_axial.usual_nodes() * by_ratio.usual_nodes() * by_fraction.usual_nodes() * by_radius.usual_nodes());
   const auto part_until = [&](const CellFunction& end) {
     weights.last_progress = std::min(weights.last_progress, end.value);
     return part_of(end, progress);
   };
   const auto add_radii = [&](int sheet, int fraction, const CellFunction& of_row) {
     const auto part = [&](int i) { return part_until(end(curve(sheet, fraction, i))); };
-    for (const auto& [radius, of_radius] : by_radius.weights(part))
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [radius, of_radius] : by_radius.weights(part, parts))
       if (const Curve& found = curve(sheet, fraction, radius); !found.place.empty())
         all.push_back({&found, of_row * of_radius});
   };
   const auto add_sheet = [&](int sheet, const CellFunction& of_sheet) {
     const auto part = [&](int j) { return part_until(end(sheet, j, cell)); };
-    for (const auto& [fraction, of_fraction] : by_fraction.weights(part))
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [fraction, of_fraction] : by_fraction.weights(part, parts))
       add_radii(sheet, fraction, of_sheet * of_fraction);
   };
-  for (const auto& [axial, of_axial] : by_axial.weights([&](int i) { return part_until(axial_end(i, cell)); })) {
-    const auto part = [&, axial = axial](int i) { return part_until(sheet_end(sheet_of(axial, i), cell)); };
-    for (const auto& [ratio, of_ratio] : by_ratio.weights(part)) add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
-  }
+  const auto add_axial = [&](int axial, const CellFunction& of_axial) {
+    const auto part = [&](int i) { return part_until(sheet_end(sheet_of(axial, i), cell)); };
+    std::optional<AxisPolynomials::Weights> parts;
+    for (const auto& [ratio, of_ratio] : by_ratio.weights(part, parts))
+      add_sheet(sheet_of(axial, ratio), of_axial * of_ratio);
+  };
+  const auto part = [&](int i) { return part_until(axial_end(i, cell)); };
+  std::optional<AxisPolynomials::Weights> parts;
+  for (const auto& [axial, of_axial] : by_axial.weights(part, parts)) add_axial(axial, of_axial);
   return weights;
 }
 

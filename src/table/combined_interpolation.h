@@ -59,6 +59,8 @@ class CombinedInterpolation {
   explicit CombinedInterpolation(const CombinedTable& table);
 
   CombinedState at(const CellCoordinates& cell) const;
+  /// The values alone, in half of the time.
+  Eigen::Matrix<double, row_count, 1> values_at(const CellCoordinates& cell) const;
   /// All cells with these coordinates but the progress. The table must outlive it.
   CellLine line(const CellCoordinates& cell) const;
   /// The branches of which `at` makes a state, for whatever else is known of them at this progress or, of those that
@@ -91,6 +93,7 @@ class CombinedInterpolation {
       return is_own && log_progress >= place.front() && log_progress <= place.back();
     }
   };
+  class OnCurve;
   struct CurveWeight {
     const Curve* curve;
     CellFunction weight;
@@ -116,10 +119,6 @@ class CombinedInterpolation {
   /// A sheet has one tension of the cortex and one axial ratio.
   int sheet_of(int axial, int ratio) const { return axial * int(ratios_.size()) + ratio; }
   const Curve& curve(int sheet, int fraction, int radius) const;
-  /// Value, and slope over ln of the progress, of the first rows.
-  template <int rows>
-  static std::pair<Eigen::Matrix<double, rows, 1>, Eigen::Matrix<double, rows, 1>> along(const Curve& branch,
-                                                                                         double progress);
   template <int rows>
   static Sum<rows> sum_at(double progress, const CurveWeights& weights);
   /// All curves of which a cell is a weighted sum. What a branch counts falls smoothly to nothing beyond its end.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "case/user_error.h"
 #include "extract/extraction.h"
 #include "measurement/recording_writer.h"
 #include "measurement/reference_files.h"
@@ -116,6 +117,25 @@ class SameNumbers : public testing::Test {
     with_modulus_ += std::size_t(std::ranges::count_if(cells, has));
   }
 
+  /// All events by what is stored, under a given tension.
+  static void compare_features(const Recording& recording, const ModulusTables& tables) {
+    constexpr double tension_Pa = 120;
+    ExtractOptions options;
+    options.measuring.viscosity_mPas = viscosity_mPas;
+    Extraction extraction(recording, options, tables);
+    ASSERT_TRUE(extraction.take_tension(cell_under(tension_Pa)));
+    const EventBlock events = extraction.compute(0, recording.events());
+    const Opened opened(settings_of(extraction.conditions(), tension_Pa));
+    std::vector<rheocyte_cell_result> together(recording.events()), single(recording.events());
+    ASSERT_EQ(rheocyte_cell_from_features(opened.worker, events.area_um2.data(), events.deformation.data(), nullptr,
+                                          together.size(), together.data()),
+              0);
+    for (std::size_t i = 0; i < single.size(); ++i)
+      single[i] = opened.from_features(events.area_um2[i], events.deformation[i]);
+    expect_same(events, together);
+    expect_same(events, single);
+  }
+
   test::ScratchFolder folder_;
   std::size_t with_modulus_ = 0;
 };
@@ -137,25 +157,23 @@ TEST_F(SameNumbers, OfMasksOfRealCells) {
   EXPECT_GT(with_modulus_, 20U);
 }
 
-/// By what the recording stores, in single precision.
-TEST_F(SameNumbers, OfStoredFeaturesOfRealCells) {
-  RHEOCYTE_NEED_REFERENCE("rtdc/example.rtdc");
-  const Recording recording(test::reference_folder() / "rtdc/example.rtdc");
+/// By what the recordings store, in single precision: each event alone and all in one call.
+TEST_F(SameNumbers, OfStoredFeaturesOfAllReferenceRecordings) {
+  RHEOCYTE_NEED_REFERENCE("rtdc");
   const ModulusTables tables("");
-  ExtractOptions options;
-  options.measuring.viscosity_mPas = viscosity_mPas;
-  Extraction extraction(recording, options, tables);
-  ASSERT_TRUE(extraction.take_tension(cell_under(120)));
-  const EventBlock events = extraction.compute(0, recording.events());
-  const Opened opened(settings_of(extraction.conditions(), 120));
-  std::vector<rheocyte_cell_result> together(recording.events()), single(recording.events());
-  ASSERT_EQ(rheocyte_cell_from_features(opened.worker, events.area_um2.data(), events.deformation.data(), nullptr,
-                                        together.size(), together.data()),
-            0);
-  for (std::size_t i = 0; i < single.size(); ++i)
-    single[i] = opened.from_features(events.area_um2[i], events.deformation[i]);
-  expect_same(events, together);
-  expect_same(events, single);
+  std::size_t recordings = 0;
+  for (const char* folder : {"rtdc", "hl60-doses"}) {
+    if (!fs::exists(test::reference_folder() / folder)) continue;
+    for (const auto& entry : fs::directory_iterator(test::reference_folder() / folder)) {
+      SCOPED_TRACE(entry.path().filename());
+      try {
+        compare_features(Recording(entry.path()), tables);
+        ++recordings;
+      } catch (const UserError&) {  // of a recording that cannot be read, or has no area and deformation
+      }
+    }
+  }
+  EXPECT_GE(recordings, fs::exists(test::reference_folder() / "hl60-doses") ? 38U : 3U);
 }
 
 /// Cells with a cortex under a known axial tension, drawn by the camera of `rheocyte synth` from another table.

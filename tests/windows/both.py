@@ -63,7 +63,14 @@ class Wine:
         return [wine_of_64_bits(), str(self.program), *map(str, words)]
 
     def call(self, *words, cwd=None, **environment):
-        return subprocess.run(self.arguments(*words), cwd=cwd or self.folder, env={**self.environment, **environment},
+        return self.run(self.arguments(*words), cwd, **environment)
+
+    def call_other(self, program, *words):
+        """Another program for Windows."""
+        return self.run([wine_of_64_bits(), str(program), *map(str, words)])
+
+    def run(self, arguments, cwd=None, **environment):
+        return subprocess.run(arguments, cwd=cwd or self.folder, env={**self.environment, **environment},
                               stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE_S, check=False)
 
     def start(self, *words, cwd):
