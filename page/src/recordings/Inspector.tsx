@@ -6,7 +6,7 @@ import { openInCell } from '../shell/open_in_cell';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
-import { nameOf, unitOf } from './features';
+import { nameOf, recommendedFeature, unitOf, youngModulus } from './features';
 import { EventImage } from './EventImage';
 import { choice, focus, itemOf, items, readRecordings, titleOf, type Choice } from './model';
 import { moduliVersion } from './moduli';
@@ -64,46 +64,48 @@ function Value({ value, error, name = 'E' }: { value: number; error: number | nu
   );
 }
 
-/** The modulus of the kind that is recommended for the recording, and that from deformation by its name. */
+/** The modulus that is recommended for the recording first, and E from deformation. */
 function Headline({ detail, by }: { detail: EventDetail; by: string }) {
-  const value = detail.young_modulus_kPa;
-  const elongated = detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null;
-  const error = detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error;
+  const deformation = detail.young_modulus_kPa;
+  const ofDeformation = { name: nameOf(youngModulus), value: deformation, error: detail.young_modulus_kPa_error, none: detail.state };
   const effective = detail.features.effective_modulus_kPa;
-  const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.young_modulus_kPa_error} />;
-  if (by === 'effective')
-    return (
-      <>
-        <p class={typeof effective === 'number' ? 'large' : 'large none'}>
-          {typeof effective === 'number' ? <Value value={effective} error={null} name="E_eff" /> : 'No effective modulus: the cell lies outside the table'}
-        </p>
-        {typeof effective === 'number' && <p class="soft">effective modulus under the axial tension of the recording</p>}
-        <p class="soft from-deformation">
-          {fromDeformation}
-          {value !== null && ' from deformation, as of a solid'}
-        </p>
-      </>
-    );
-  if (by !== 'elongated' && by !== 'none')
-    return (
-      <>
-        <p class={value === null ? 'large none' : 'large'}>{fromDeformation}</p>
-        {value !== null && <p class="soft">from deformation{by === 'deformation' && ', as is recommended for the recording'}</p>}
-      </>
-    );
+  const found = {
+    deformation: ofDeformation,
+    elongated: {
+      name: nameOf(recommendedFeature('elongated')!),
+      value: detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null,
+      error: detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error,
+      none: '',
+    },
+    effective: {
+      name: nameOf(recommendedFeature('effective')!),
+      value: typeof effective === 'number' ? effective : null,
+      error: null,
+      symbol: 'E_eff',
+      none: 'the cell lies outside the table',
+    },
+  }[by];
+  const first = found ?? ofDeformation;
   return (
     <>
-      {by === 'none' && <p class="large none">No modulus is recommended for the recording</p>}
-      {by === 'elongated' && (
+      {by === 'none' ? (
+        <p class="large none">No modulus is recommended for the recording</p>
+      ) : (
         <>
-          <p class={elongated === null ? 'large none' : 'large'}>{elongated === null ? 'No modulus as of an elongated cell' : <Value value={elongated} error={error} />}</p>
-          {elongated !== null && <p class="soft">as of an elongated cell, as is recommended for the recording</p>}
+          <p class={first.value === null ? 'large none' : 'large'}>
+            {first.value === null ? 'No modulus' : <Value value={first.value} error={first.error} name={'symbol' in first ? first.symbol : 'E'} />}
+          </p>
+          <p class="soft">
+            {first.name}
+            {first.value === null ? first.none && `: ${first.none}` : found && ', recommended for the recording'}
+          </p>
         </>
       )}
-      <p class="soft from-deformation">
-        {fromDeformation}
-        {value !== null && ' from deformation'}
-      </p>
+      {first !== ofDeformation || by === 'none' ? (
+        <p class="soft from-deformation">
+          {ofDeformation.name}: {deformation === null ? `none, ${detail.state}` : <Value value={deformation} error={ofDeformation.error} name="" />}
+        </p>
+      ) : null}
     </>
   );
 }
