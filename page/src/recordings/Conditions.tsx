@@ -21,7 +21,7 @@ function Mean({ title, mean, unit, none }: { title: string; mean: FittedValue; u
   return (
     <tr class="mean">
       <th scope="row">{title}</th>
-      <td>{Number.isFinite(mean.value) ? `${significant(mean.value)} ${unit}` : (none ?? '–')}</td>
+      <td class={Number.isFinite(mean.value) ? undefined : 'none'}>{Number.isFinite(mean.value) ? `${significant(mean.value)} ${unit}` : (none ?? '–')}</td>
       <td>{rangeText(mean)}</td>
     </tr>
   );
@@ -53,7 +53,7 @@ export function Conditions({ feature, fit }: { feature: string; fit: NumberFit |
   if (names.length === 0) return <p class="soft">Name conditions and replicates in the list: their means, intervals and ratios appear here.</p>;
   return (
     <table class="conditions">
-      <caption>{labelOf(feature)}</caption>
+      <caption class="hidden">{labelOf(feature)} by condition</caption>
       <thead>
         <tr>
           <th scope="col">Condition (recordings)</th>

@@ -1,4 +1,5 @@
 // One event: its image with outline and model, its features, its modulus or the reason why there is none.
+import type { ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { readEvent, type CombinedCell, type EventDetail } from '../api';
 import { significant, withErrors } from '../draw/numbers';
@@ -56,11 +57,12 @@ function useDetail(chosen: Choice | null): Found {
   return { inspected: shown, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
-function Value({ value, error, name = 'E' }: { value: number; error: number | null | undefined; name?: string }) {
+function Value({ value, error, name = 'E' }: { value: number; error: number | null | undefined; name?: ComponentChildren }) {
   return (
-    <>
-      <span class="symbol">{name}</span> {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
-    </>
+    <span class="value">
+      {name !== '' && <span class="symbol">{name} </span>}
+      {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
+    </span>
   );
 }
 
@@ -81,7 +83,7 @@ function Headline({ detail, by }: { detail: EventDetail; by: string }) {
       name: nameOf(recommendedFeature('effective')!),
       value: typeof effective === 'number' ? effective : null,
       error: null,
-      symbol: 'E_eff',
+      symbol: <>E<sub>eff</sub></>,
       none: 'the cell lies outside the table',
     },
   }[by];

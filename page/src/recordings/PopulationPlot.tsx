@@ -11,18 +11,23 @@ import { distinctNames } from './names';
 import { inOrderOfConditions, type FittedValue, type NumberFit } from './population_fits';
 import { recommendedOf } from './recommended';
 import { reports } from './reports';
-import { forward, rangeOf, ticksOf, type ScaleKind, type Span } from './scale';
+import { forward, ticksOf, type ScaleKind, type Span } from './scale';
+import { quantiles } from './statistics';
 import { useSize } from './use_size';
 import { valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
-const slots = { least: 24, greatest: 120 };
-const height = 210;
-const left = 62;
+const slots = { least: 24, greatest: 150 };
+/** For the name of one condition. */
+const longestName = 120;
+/** Of the picture, by the height of the window. */
+const heightIn = (window: number) => Math.max(200, Math.min(320, Math.round(0.24 * window)));
+const left = 56;
 const right = 12;
 const inner = { top: 8, bottom: 34 };
-/** Where names do not fit side by side they are inclined, so far below the axis and so long, in pixels. */
-const inclined = { deep: 54, long: 104 };
+/** Where names do not fit side by side they are inclined, at most so far below the axis and so long, in pixels. */
+const inclined = { deep: 54, long: 104, angle: (40 * Math.PI) / 180 };
 const letter = 6.5;
+const lineHeight = 14;
 
 interface Entry {
   item: Item;
@@ -51,18 +56,22 @@ function useEntries(feature: string, scale: ScaleKind, fit: NumberFit | undefine
   }, [version, active, all, runs, feature, scale, fit]);
 }
 
-/** All values and marks, the latter with some room. */
+/** Of the events 95 %, and all marks with some room: the tails of wide distributions are cut, so that medians can be compared. */
 function spanOf(entries: Entry[], scale: ScaleKind, fit: NumberFit | undefined): Span {
-  const spans = entries.filter(({ values }) => values.length > 0).map(({ values }) => rangeOf(values, 'linear'));
+  const spans = entries
+    .filter(({ values }) => values.length > 0)
+    .map(({ values }) => quantiles(values, [0.025, 0.975]))
+    .map(([low, high]) => ({ low, high }));
   const fitted = [...(fit?.medians.values() ?? [])].map(({ median }) => median).concat(...(fit?.means.values() ?? []));
   const marks = [
     ...entries.map(({ recommended }) => recommended),
     ...fitted.flatMap(({ value, low, high }) => [value, low ?? value, high ?? value]).map((end) => forward(scale, end)),
   ].filter(Number.isFinite);
-  const room = spans.length > 0 ? 0 : 0.08 * (Math.max(...marks) - Math.min(...marks)) || 0.1;
-  const low = Math.min(...spans.map((span) => span.low), ...marks.map((mark) => mark - room));
-  const high = Math.max(...spans.map((span) => span.high), ...marks.map((mark) => mark + room));
-  return high > low ? { low, high } : { low: 0, high: 1 };
+  const low = Math.min(...spans.map((span) => span.low), ...marks);
+  const high = Math.max(...spans.map((span) => span.high), ...marks);
+  if (!Number.isFinite(high - low)) return { low: 0, high: 1 };
+  const room = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
+  return { low: low - room, high: high + room };
 }
 
 /** Pixel of a place along the scale, above an axis that lies so deep. */
@@ -132,15 +141,19 @@ interface ViolinsProps {
 function Violins({ entries, span, scale, feature, fit, slot }: ViolinsProps) {
   const width = left + slot * entries.length + right;
   const names = distinctNames(entries.map(({ item }) => titleOf(item)));
-  const deep = names.some((name) => shortened(name, slot) !== name) ? inclined.deep : 0;
-  const long = Math.min(inclined.long, (left + slot / 2) / Math.cos((40 * Math.PI) / 180));
+  const height = heightIn(window.innerHeight);
+  const deep = names.some((name) => shortened(name, slot) !== name) ? Math.min(inclined.deep, Math.max(...names.map((name) => letter * name.length)) * Math.sin(inclined.angle)) : 0;
+  const long = Math.min(inclined.long, (left + slot / 2) / Math.cos(inclined.angle));
   const bottom = height - inner.bottom - deep;
   const up = upAlong(span, bottom);
   const upOf: Up = (value) => up(forward(scale, value));
   const runs = runsOf(entries);
+  const isWhole = runs.every(({ condition, count }) => shortened(condition, slot * count) === condition);
+  const lines = (condition: string) => (isWhole ? [condition] : inTwo(condition));
+  const more = isWhole ? 0 : lineHeight;
   const violins = useMemo(() => entries.map(({ values }) => violinOf(values, span)), [entries, span]);
   return (
-    <svg class="violins" width={width} height={height} role="img" aria-label={`Distributions of ${labelOf(feature)} by recording`}>
+    <svg class="violins" width={width} height={height + more} role="img" aria-label={`Distributions of ${labelOf(feature)} by recording`}>
       <g class="plot-axes">
         {ticksOf(scale, span, 4).map(({ place, label }) => (
           <g key={place} transform={`translate(${left} ${up(place).toFixed(1)})`}>
@@ -151,9 +164,6 @@ function Violins({ entries, span, scale, feature, fit, slot }: ViolinsProps) {
           </g>
         ))}
         <path d={`M${left} ${inner.top}V${bottom}H${width - 4}`} fill="none" />
-        <text class="plot-title" transform={`translate(13 ${(bottom + deep) / 2}) rotate(-90)`} text-anchor="middle">
-          {labelOf(feature)}
-        </text>
         {entries.map(({ item }, k) => (
           <text key={item.item} transform={`translate(${left + slot * (k + 0.5)} ${bottom + 16}) ${deep ? 'rotate(-40)' : ''}`} text-anchor={deep ? 'end' : 'middle'}>
             <title>{item.name}</title>
@@ -161,9 +171,13 @@ function Violins({ entries, span, scale, feature, fit, slot }: ViolinsProps) {
           </text>
         ))}
         {runs.map(({ condition, first, count }) => (
-          <text key={first} class="soft" x={left + slot * (first + count / 2)} y={height - 4} text-anchor="middle">
+          <text key={first} class="soft" y={height + more - 4} text-anchor="middle">
             <title>{condition}</title>
-            {shortened(condition, slot * count)}
+            {lines(condition).map((line, k, all) => (
+              <tspan key={k} x={left + slot * (first + count / 2)} dy={k > 0 ? lineHeight : (1 - all.length) * lineHeight}>
+                {shortened(line, slot * count)}
+              </tspan>
+            ))}
           </text>
         ))}
       </g>
@@ -213,9 +227,23 @@ function shortened(name: string, width: number): string {
   return name.length > most ? `${name.slice(0, most - 1)}…` : name;
 }
 
-/** Slots in which the names of the conditions are whole, unless these are long. */
+/** A name in two lines, broken at the blank nearest to its middle. */
+function inTwo(name: string): string[] {
+  const blanks = [...name.matchAll(/ /g)].map(({ index }) => index);
+  const from = (blank: number) => Math.abs(blank - name.length / 2);
+  const [nearest] = blanks.sort((a, b) => from(a) - from(b));
+  return nearest === undefined ? [name] : [name.slice(0, nearest), name.slice(nearest + 1)];
+}
+
+/** Slots in which the names of the conditions are whole in two lines, unless these are long. */
 const leastSlot = (entries: Entry[]) =>
-  Math.max(slots.least, ...runsOf(entries).map(({ condition, count }) => Math.min(slots.greatest, letter * (condition.length + 1) + 6) / count));
+  Math.max(
+    slots.least,
+    ...runsOf(entries).map(({ condition, count }) => {
+      const longest = Math.max(...inTwo(condition).map((line) => line.length));
+      return Math.min(longestName, letter * (longest + 1) + 6) / count;
+    }),
+  );
 
 export function PopulationPlot({ feature, scale, fit }: { feature: string; scale: ScaleKind; fit: NumberFit | undefined }) {
   const { entries, span } = useEntries(feature, scale, fit);
@@ -223,15 +251,11 @@ export function PopulationPlot({ feature, scale, fit }: { feature: string; scale
   const least = leastSlot(entries);
   const slot = Math.max(least, Math.min(slots.greatest, Math.floor((width - left - right) / entries.length)));
   return (
-    <div
-      class="population-plot"
-      style={{ flexBasis: `${left + least * entries.length + right}px` }}
-      ref={element}
-      tabIndex={0}
-      role="region"
-      aria-label="Distributions by recording"
-    >
-      {entries.length > 0 ? <Violins entries={entries} span={span} scale={scale} feature={feature} fit={fit} slot={slot} /> : <p class="soft">{noValues}</p>}
+    <div class="population-plot" style={{ flexBasis: `${left + least * entries.length + right}px` }}>
+      <h3>{labelOf(feature)}</h3>
+      <div class="violins-scroll" ref={element} tabIndex={0} role="region" aria-label="Distributions by recording">
+        {entries.length > 0 ? <Violins entries={entries} span={span} scale={scale} feature={feature} fit={fit} slot={slot} /> : <p class="soft">{noValues}</p>}
+      </div>
     </div>
   );
 }

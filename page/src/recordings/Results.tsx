@@ -2,6 +2,7 @@
 import tabs from 'every:./tabs';
 import { useStore } from '../shell/store';
 import { items, measured, panel, recordings } from './model';
+import { labelOf } from './features';
 import { FeatureOptions } from './PlotSelects';
 import { fittedFeatures } from './population_fits';
 import { population } from './population_runs';
@@ -27,7 +28,7 @@ function MeasuredSelect() {
   return (
     <label class="choice">
       <span>Quantity</span>
-      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
+      <select aria-label="Quantity" title={labelOf(feature)} value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
         <FeatureOptions features={offered} chosen={feature} />
       </select>
     </label>

@@ -22,7 +22,7 @@ function Start() {
   const conditions = sessionsOf(all);
   if (running) return <Progress label="Fitting populations" onStop={stopPopulation} />;
   return (
-    <div class="row">
+    <>
       <button class="primary" disabled={conditions.length === 0} onClick={() => void computePopulation()}>
         Fit populations
       </button>
@@ -39,7 +39,7 @@ function Start() {
           <option value="cortex">Bulk and cortex</option>
         </select>
       </label>
-    </div>
+    </>
   );
 }
 
@@ -112,7 +112,7 @@ function Legend({ feature, isFitted }: { feature: string; isFitted: boolean }) {
   return (
     <p class="soft">
       {isRecommendable(feature) && 'Diamond: recommended modulus. '}
-      Circle: median of the events; short lines: its 95 % interval from the ranks; bar: quartiles. Intervals of conditions: Student's t over their
+      Circle: median of the events; short lines: its 95 % interval from the ranks; bar: quartiles; the axis shows the central 95 % of the events. Intervals of conditions: Student's t over their
       replicates, from two on.
       {isFitted &&
         ' Dot: median of the cells (fit) with its 95 % interval, open if the checks fail; line and band: that of the condition, by the scatter of its recordings.'}
@@ -123,18 +123,20 @@ function Legend({ feature, isFitted }: { feature: string; isFitted: boolean }) {
 function Populations() {
   const feature = useStore(measured);
   const found = useStore(population);
-  const fit = useMemo(() => (found ? fitOf(found.record, found.fitted, feature) : undefined), [found, feature]);
   const [scale, setScale] = useState<ScaleKind>('linear');
+  const fit = useMemo(() => (found ? fitOf(found.record, found.fitted, feature) : undefined), [found, feature]);
   const origin = useOrigin(feature);
   return (
     <div class="populations">
-      <PopulationPlot feature={feature} scale={scale} fit={fit} />
-      <div class="population-notes">
+      <div class="row population-start">
         <Start />
         <label class="check">
           <input type="checkbox" checked={scale === 'log'} onChange={({ currentTarget }) => setScale(currentTarget.checked ? 'log' : 'linear')} />
           Logarithmic
         </label>
+      </div>
+      <PopulationPlot feature={feature} scale={scale} fit={fit} />
+      <div class="population-notes">
         <Doses />
         <Conditions feature={feature} fit={fit} />
         {fit && <Ratios fit={fit} />}
