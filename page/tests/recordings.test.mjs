@@ -139,7 +139,7 @@ test('An event without a modulus says why', { skip }, () =>
     await page.getByLabel('Number of the event').fill(String(stiff + 1));
     await page.keyboard.press('Enter');
     const meaning = 'The cell is deformed less than the stiffest cell of the table of this area.';
-    await page.getByText('No modulus from deformation: too stiff').waitFor();
+    await page.getByText('E from deformation: none, too stiff').waitFor();
     await page.getByRole('region', { name: 'Event', exact: true }).getByText(meaning).waitFor();
     await page.getByRole('region', { name: 'List of recordings' }).getByText(`too stiff${meaning}`).waitFor();
     assert.equal(await page.locator('.event-image .model-contour').count(), 0);

@@ -66,6 +66,8 @@ function Value({ value, error, name = 'E' }: { value: number; error: number | nu
   );
 }
 
+const noneBecause = (reason: string) => (reason === '' ? ': none' : `: none, ${reason}`);
+
 /** The modulus that is recommended for the recording first, and E from deformation. */
 function Headline({ detail, by }: { detail: EventDetail; by: string }) {
   const deformation = detail.young_modulus_kPa;
@@ -99,15 +101,16 @@ function Headline({ detail, by }: { detail: EventDetail; by: string }) {
           </p>
           <p class="soft">
             {first.name}
-            {first.value === null ? first.none && `: ${first.none}` : found && ', recommended for the recording'}
+            {first.value === null ? noneBecause(first.none) : found && ', recommended for the recording'}
           </p>
         </>
       )}
-      {first !== ofDeformation || by === 'none' ? (
+      {(first !== ofDeformation || by === 'none') && (
         <p class="soft from-deformation">
-          {ofDeformation.name}: {deformation === null ? `none, ${detail.state}` : <Value value={deformation} error={ofDeformation.error} name="" />}
+          {ofDeformation.name}
+          {deformation === null ? noneBecause(detail.state) : <>: <Value value={deformation} error={ofDeformation.error} name="" /></>}
         </p>
-      ) : null}
+      )}
     </>
   );
 }
