@@ -61,7 +61,7 @@ for (const width of [1280, 1920])
         await page.locator('[data-plot="1"]').focus();
         await page.keyboard.press('n');
         await page.locator('.modulus .large', { hasText: 'kPa' }).waitFor();
-        const places = '.results-head, #results-panel, .violins-scroll, .inspector, .to-report';
+        const places = '.results-head, #results-panel, .plot-keys, .violins-scroll, .inspector, .to-report';
         const whole = async (when) => assert.deepEqual(await cutIn(page, places), [], when);
         const quantities = await page.getByLabel('Quantity').locator('option').allTextContents();
         for (const quantity of quantities) {
