@@ -52,7 +52,7 @@ async function nextEvent() {
 
 /** From a changed limit until the statistics of the moduli have followed on the screen: milliseconds. */
 async function statistics(value) {
-  const input = document.querySelector('[aria-label="Least Area"]');
+  const input = document.querySelector('[aria-label="Minimum Area"]');
   input.value = String(value);
   const row = () => document.querySelector('.statistics tr[data-item="0"]')?.textContent ?? '';
   const start = performance.now();
@@ -97,7 +97,7 @@ console.log(`moduli: ${(performance.now() - start).toFixed(0)} ms`);
 const times = [];
 for (let k = 0; k < 15; ++k) {
   await page.getByRole('tab', { name: /^Gates/ }).click();
-  await page.getByLabel('Least Area').waitFor();
+  await page.getByLabel('Minimum Area').waitFor();
   times.push(await page.evaluate(statistics, 90.5 + k));
 }
 console.log(`a gate's statistics of the moduli on the screen: ${summary(times)}`);

@@ -267,6 +267,8 @@ export interface PopulationRecording extends PopulationRow {
 
 /** What the page reads of population.json; there is more. */
 export interface Population {
+  /** solid, effective or cortex */
+  model: string;
   /** what the model determines of the cells, the most accurate first; `median` is the column of the median */
   quantities: { quantity: string; median: string; symbol: string; unit: string }[];
   conditions: (PopulationRow & { condition: string })[];

@@ -92,27 +92,27 @@ for (const width of [1280, 1920])
       }
       await page.getByRole('button', { name: 'Compute the moduli of all 2 recordings' }).click();
       await page.locator('.recording-name').first().click();
-      await page.locator('.to-report', { hasText: `E = ${number} ±` }).waitFor();
+      await page.locator('.to-report', { hasText: `Recommended modulus: ${number} ±` }).waitFor();
       await page.locator('.statistics tr[data-item="1"] .recommended', { hasText: '±' }).waitFor();
       const statistics = await recordings.statisticsOf(page, 0);
-      assert.ok(statistics['Recommended E'].startsWith(number), statistics['Recommended E']);
+      assert.ok(statistics['Recommended modulus'].startsWith(number), statistics['Recommended modulus']);
       assert.ok(Number(statistics.Median) < 0.9 * Number(number), 'E from deformation is far too low, and stands beside it');
       assert.ok((await beyond(page)) <= 0, `statistics: ${await beyond(page)} pixels`);
 
-      await page.getByRole('tab', { name: 'Distributions' }).click();
+      await page.getByRole('tab', { name: 'Populations' }).click();
       await page.locator('.violins .recommended').nth(1).waitFor();
       const rows = await page.locator('.conditions tbody').first().locator('tr').allTextContents();
       assert.equal(rows[0], 'control (1)');
-      assert.ok(rows[1].startsWith(`Recommended E${exact.toPrecision(4)}`), rows[1]);
-      assert.ok(rows[2].startsWith('E from deformation'), rows[2]);
-      assert.ok((await beyond(page)) <= 0, `distributions: ${await beyond(page)} pixels`);
+      assert.ok(rows[1].startsWith(`Recommended modulus${exact.toPrecision(4)}`), rows[1]);
+      assert.ok(rows[2].startsWith('Median of the events'), rows[2]);
+      assert.ok((await beyond(page)) <= 0, `populations: ${await beyond(page)} pixels`);
       for (const name of ['control_of_today', 'drug_of_today', 'control', 'drug'])
         assert.equal(await page.locator('.violins .plot-axes text', { hasText: new RegExp(`${name}$`) }).count() > 0, true, name);
 
       await recordings.plotOf(page).focus();
       await page.keyboard.press('n');
       await page.locator('.modulus .large', { hasText: 'kPa' }).waitFor();
-      assert.match(await page.locator('.modulus').textContent(), /as of an elongated cell.*E \S+ ± \S+ kPa from deformation/);
+      assert.match(await page.locator('.modulus').textContent(), /E as of an elongated cell, recommended for the recordingE from deformation: \S+ ± \S+ kPa/);
       for (const field of await page.locator('.setting input[placeholder="automatic"]').all())
         if (await field.isVisible()) assert.ok((await field.evaluate(roomBeside)) >= 0, 'the word is whole');
     }));
@@ -124,7 +124,7 @@ test('within gates the page recommends what the command with the same gates does
     const said = ({ exact, text }) => page.waitForFunction(([number, sentence]) => {
       const own = document.querySelector('.statistics tr[data-item="0"] .recommended');
       const panel = document.querySelector('.to-report h3');
-      return own?.title === sentence && own.textContent.startsWith(number) && panel?.textContent.includes(`E = ${number} ±`);
+      return own?.title === sentence && own.textContent.startsWith(number) && panel?.textContent.includes(`: ${number} ±`);
     }, [exact.toPrecision(3), text]);
     await recordings.computeModuli(page);
     const all = await recommendedBy(files[0], folder);

@@ -139,7 +139,7 @@ test('An event without a modulus says why', { skip }, () =>
     await page.getByLabel('Number of the event').fill(String(stiff + 1));
     await page.keyboard.press('Enter');
     const meaning = 'The cell is deformed less than the stiffest cell of the table of this area.';
-    await page.getByText('No modulus from deformation: too stiff').waitFor();
+    await page.getByText('E from deformation: none, too stiff').waitFor();
     await page.getByRole('region', { name: 'Event', exact: true }).getByText(meaning).waitFor();
     await page.getByRole('region', { name: 'List of recordings' }).getByText(`too stiff${meaning}`).waitFor();
     assert.equal(await page.locator('.event-image .model-contour').count(), 0);
@@ -226,6 +226,23 @@ test('A reload restores gates, axes and the event under inspection', { skip }, (
   }),
 );
 
+test('A session with the former tab of distributions opens the populations', { skip }, () =>
+  inPage(async (page) => {
+    await page.evaluate(async () => {
+      const { page: kept } = await (await fetch('/api/session')).json();
+      await fetch('/api/session', {
+        method: 'PUT',
+        headers: { 'Content-Type': 'application/json' },
+        body: JSON.stringify({ page: { ...kept, recordings: { panel: 'distributions', measured: 'area_um' } } }),
+      });
+    });
+    await page.reload();
+    await recordings.drawn(page);
+    assert.equal(await page.getByRole('tab', { name: 'Populations' }).getAttribute('aria-selected'), 'true');
+    await page.getByRole('img', { name: 'Distributions of Area (µm²) by recording' }).waitFor();
+  }),
+);
+
 test('Names of condition and replicate give the distribution its means', { skip }, () =>
   inPage(async (page) => {
     await page.getByRole('button', { name: 'Compute the moduli of all 2 recordings' }).click();
@@ -234,12 +251,12 @@ test('Names of condition and replicate give the distribution its means', { skip 
       await page.locator('.recording.focused').getByLabel('Condition').fill('one');
       await page.keyboard.press('Enter');
     }
-    await page.getByRole('tab', { name: 'Distributions' }).click();
+    await page.getByRole('tab', { name: 'Populations' }).click();
     await page.locator('.violin').nth(1).waitFor();
     // Of two replicates once the second name has arrived, too.
     const means = page.locator('.conditions tbody', { hasText: 'one (2)' });
     await means.filter({ hasText: ' to ' }).waitFor();
-    assert.match(await means.textContent(), /^one \(2\)Recommended E.*E from deformation\d\.\d+ kPa\S* to /);
+    assert.match(await means.textContent(), /^one \(2\)Recommended modulus.*Median of the events\d\.\d+ kPa\S* to /);
   }),
 );
 
@@ -261,9 +278,11 @@ test('Populations of the conditions of the list are fitted: a dot for each recor
   await inPage(async (page) => {
     await openPopulations(page);
     await page.getByRole('button', { name: 'Fit populations' }).click();
-    await page.locator('.populations-plot .session').first().waitFor();
-    assert.equal(await page.locator('.populations-plot .session').count(), 2);
-    const table = await page.locator('.populations table').textContent();
+    await page.locator('.violins .session').first().waitFor();
+    assert.equal(await page.locator('.violins .session').count(), 2);
+    assert.equal(await page.locator('.violins .condition-mean').count(), 2);
+    const table = (await page.locator('.populations table').allTextContents()).join(' ');
+    assert.match(table, /control \(1\).*Median of the cells \(fit\)\d\.\d+ kPa/);
     assert.match(table, /drug \/ control/);
     assert.match(table, /none/, 'single recordings have no p');
     assert.match(await page.locator('.populations code').textContent(), /^rheocyte population --condition/);
@@ -281,15 +300,15 @@ test('Bulk, cortex and tensions of populations are told one by one', { skip }, a
     await openPopulations(page);
     await page.getByRole('combobox', { name: 'Cells' }).selectOption('Bulk and cortex');
     await page.getByRole('button', { name: 'Fit populations' }).click();
-    await page.getByRole('img', { name: 'Median E + E2D/r0 of each recording, by condition' }).waitFor();
-    await page.getByLabel('Shown').selectOption('E2D');
-    await page.getByRole('img', { name: 'Median E2D of each recording, by condition' }).waitFor();
-    assert.equal(await page.locator('.populations-plot .session').count(), 2);
-    assert.match(await page.locator('.populations table').textContent(), /mN\/m.*drug \/ control0\.[67]/);
+    await page.getByRole('img', { name: 'Distributions of Stiffness E + E2D/r0 (kPa) by recording' }).waitFor();
+    await page.getByLabel('Quantity').selectOption('Cortex modulus E2D (mN/m)');
+    await page.getByRole('img', { name: 'Distributions of Cortex modulus E2D (mN/m) by recording' }).waitFor();
+    assert.equal(await page.locator('.violins .session').count(), 2);
+    assert.match((await page.locator('.populations table').allTextContents()).join(' '), /mN\/m.*drug \/ control0\.[67]/);
     assert.match(await page.locator('.populations code').textContent(), /--model cortex/);
     await page.getByRole('combobox', { name: 'Cells' }).selectOption('Effective modulus');
     await page.getByRole('button', { name: 'Fit populations' }).click();
-    await page.getByRole('img', { name: 'Median E_eff of each recording, by condition' }).waitFor();
+    await page.getByRole('img', { name: "Distributions of Effective Young's modulus (kPa) by recording" }).waitFor();
     assert.match(await page.locator('.populations code').textContent(), /--model effective/);
     await page.getByRole('combobox', { name: 'Cells' }).selectOption('By their shapes');
     await page.getByText('Doses of the conditions').click();

@@ -104,9 +104,9 @@ test('With seven recordings the button for moduli is in sight and all seven dist
     const button = await page.getByRole('button', { name: 'Compute moduli', exact: true }).boundingBox();
     assert.ok(button.y + button.height <= 800, JSON.stringify(button));
     await page.locator('.results-head select').selectOption('area_um');
-    await page.getByRole('tab', { name: 'Distributions' }).click();
+    await page.getByRole('tab', { name: 'Populations' }).click();
     await page.locator('.violin').nth(last).waitFor();
-    const cut = await page.locator('.distribution-plot').evaluate((plot) => plot.scrollWidth - plot.clientWidth);
+    const cut = await page.locator('.violins-scroll').evaluate((plot) => plot.scrollWidth - plot.clientWidth);
     assert.equal(cut, 0);
     const names = await page.locator('.violins .plot-axes text:has(title)').evaluateAll((all) => all.map((each) => each.childNodes[1].textContent));
     assert.equal(new Set(names).size, 7, names.join(' '));

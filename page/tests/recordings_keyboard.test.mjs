@@ -52,7 +52,7 @@ test('By keys alone a gate gets its limits as numbers', { skip }, () =>
     await page.getByRole('tab', { name: 'Statistics' }).focus();
     await press(page, ['ArrowRight']);
     await page.getByLabel('Limit').selectOption('area_um');
-    await page.getByLabel('Greatest Area').fill('70');
+    await page.getByLabel('Maximum Area').fill('70');
     await press(page, ['Enter']);
     await page.getByText(/^\d+ of \d+ events/).waitFor();
   }),
@@ -68,7 +68,7 @@ for (const colorScheme of ['light', 'dark'])
         await press(page, ['n']);
         await page.locator('.event-image .model-contour').waitFor();
         await page.evaluate(await readFile(axe, 'utf8'));
-        for (const tab of ['Statistics', 'Gates', 'Distributions']) {
+        for (const tab of ['Statistics', 'Gates', 'Populations']) {
           await page.getByRole('tab', { name: tab }).click();
           const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
           const grave = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');

@@ -6,7 +6,7 @@ const { describe, medianInterval, meanInterval, quantiles, studentPoint } = awai
 const { ticksOf, counted, zoomed, spanOf } = await loadModule('recordings/scale.ts');
 const { applyGates, gateOptions, gateSettings, gatesWithoutOption, SlabbedPolygon } = await loadModule('recordings/gates.ts');
 const { Density, densityCells, levelsEnclosing } = await loadModule('recordings/density.ts');
-const { sessionsOf, dotsOf } = await loadModule('recordings/condition_dots.ts');
+const { fitOf, inOrderOfConditions, sessionsOf } = await loadModule('recordings/population_fits.ts');
 const { isolines } = await loadModule('recordings/isolines.ts');
 const { placesOf } = await loadModule('recordings/places.ts');
 const { PixelCounts, nearestEvent, paint, colourByMean } = await loadModule('recordings/points.ts');
@@ -247,17 +247,28 @@ test('conditions are those of the list, their recordings in the order of the rep
   ]);
 });
 
-test('the dots of the sessions stand beside each other in the slot of their condition, and the axis holds all intervals', () => {
-  const recording = (condition, session, value) => ({
-    recording: `${condition}${session}`, condition, session, checks: [],
-    young_modulus_median_kPa: value, young_modulus_median_kPa_low: 0.9 * value, young_modulus_median_kPa_high: 1.1 * value,
-  });
-  const lost = { recording: 'b2', condition: 'b', session: 2, checks: [], young_modulus_median_kPa: null, failure: 'too stiff to be seen' };
-  const condition = (name, value) => ({ condition: name, young_modulus_median_kPa: value, young_modulus_median_kPa_low: null, young_modulus_median_kPa_high: null });
-  const found = { conditions: [condition('a', 2), condition('b', 4)], comparisons: [], recordings: [recording('a', 1, 2), recording('a', 2, 2.2), recording('b', 1, 4), lost] };
-  const { dots, span, slots } = dotsOf(found, 'young_modulus_median_kPa');
-  assert.equal(slots, 2);
-  assert.equal(dots.length, 3);
-  assert.ok(0 < dots[0].place && dots[0].place < dots[1].place && dots[1].place < 1 && 1 < dots[2].place && dots[2].place < 2);
-  assert.ok(span.low < 1.8 && span.high > 4.4);
+test('recordings stand in the order of their conditions, and those without a condition last', () => {
+  const item = (number, condition) => ({ item: number, condition, replicate: '', state: 'ready' });
+  const list = [item(0, ''), item(1, 'drug'), item(2, 'control'), item(3, 'drug')];
+  assert.deepEqual(inOrderOfConditions(list).map(({ item: number }) => number), [1, 3, 2, 0]);
+});
+
+test('fitted medians belong to the recordings and conditions that were fitted, by the name of the number of the events', () => {
+  const name = 'young_modulus_median_kPa';
+  const row = (value) => ({ [name]: value, [`${name}_low`]: value && 0.9 * value, [`${name}_high`]: value && 1.1 * value });
+  const recording = (condition, session, value) => ({ recording: `${condition}${session}`, condition, session, checks: [], ...row(value) });
+  const record = {
+    model: 'solid',
+    quantities: [{ quantity: 'young_modulus', median: name, symbol: 'E', unit: 'kPa' }],
+    conditions: [{ condition: 'a', ...row(2) }, { condition: 'b', ...row(4) }],
+    comparisons: [],
+    recordings: [recording('a', 1, 2), recording('a', 2, 2.2), recording('b', 1, 4), recording('b', 2, null)],
+  };
+  const fitted = [{ name: 'a', items: [7, 3] }, { name: 'b', items: [0, 1] }];
+  const { medians, means } = fitOf(record, fitted, 'emodulus');
+  assert.deepEqual([...medians].map(([item, { median }]) => [item, median.value]), [[7, 2], [3, 2.2], [0, 4]]);
+  assert.deepEqual([...means].map(([condition, { value }]) => [condition, value]), [['a', 2], ['b', 4]]);
+  assert.equal(fitOf(record, fitted, 'area_um'), undefined);
+  assert.equal(fitOf({ ...record, model: 'cortex' }, fitted, 'emodulus'), undefined, "the bulk's modulus is another number");
+  assert.equal(fitOf({ ...record, model: 'cortex' }, fitted, 'young_modulus_with_cortex_kPa').medians.size, 3);
 });

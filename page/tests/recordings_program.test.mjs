@@ -87,8 +87,8 @@ test('A gate of the page is --min and --max of the command line', { skip }, () =
     await computeAt(page, 23);
     await page.getByRole('tab', { name: /^Gates/ }).click();
     await page.getByLabel('Limit').selectOption('area_um');
-    await page.getByLabel('Least Area').fill('40');
-    await page.getByLabel('Greatest Area').fill('80');
+    await page.getByLabel('Minimum Area').fill('40');
+    await page.getByLabel('Maximum Area').fill('80');
     await page.keyboard.press('Enter');
     await page.getByText(/ of 5\u202f000 events/).waitFor();
     await page.getByRole('tab', { name: 'Statistics' }).click();

@@ -1,4 +1,5 @@
 // One event: its image with outline and model, its features, its modulus or the reason why there is none.
+import type { ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { readEvent, type CombinedCell, type EventDetail } from '../api';
 import { significant, withErrors } from '../draw/numbers';
@@ -6,7 +7,7 @@ import { openInCell } from '../shell/open_in_cell';
 import { Progress, useLasting } from '../shell/Progress';
 import { useStore } from '../shell/store';
 import { TypedInput } from '../shell/TypedInput';
-import { nameOf, unitOf } from './features';
+import { nameOf, recommendedFeature, unitOf, youngModulus } from './features';
 import { EventImage } from './EventImage';
 import { choice, focus, itemOf, items, readRecordings, titleOf, type Choice } from './model';
 import { moduliVersion } from './moduli';
@@ -56,54 +57,60 @@ function useDetail(chosen: Choice | null): Found {
   return { inspected: shown, error, stop: () => stop?.abort(), running: stop !== null };
 }
 
-function Value({ value, error, name = 'E' }: { value: number; error: number | null | undefined; name?: string }) {
+function Value({ value, error, name = 'E' }: { value: number; error: number | null | undefined; name?: ComponentChildren }) {
   return (
-    <>
-      <span class="symbol">{name}</span> {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
-    </>
+    <span class="value">
+      {name !== '' && <span class="symbol">{name} </span>}
+      {withErrors(value, [error ?? null])} <span class="unit">kPa</span>
+    </span>
   );
 }
 
-/** The modulus of the kind that is recommended for the recording, and that from deformation by its name. */
+const noneBecause = (reason: string) => (reason === '' ? ': none' : `: none, ${reason}`);
+
+/** The modulus that is recommended for the recording first, and E from deformation. */
 function Headline({ detail, by }: { detail: EventDetail; by: string }) {
-  const value = detail.young_modulus_kPa;
-  const elongated = detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null;
-  const error = detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error;
+  const deformation = detail.young_modulus_kPa;
+  const ofDeformation = { name: nameOf(youngModulus), value: deformation, error: detail.young_modulus_kPa_error, none: detail.state };
   const effective = detail.features.effective_modulus_kPa;
-  const fromDeformation = value === null ? `No modulus from deformation: ${detail.state}` : <Value value={value} error={detail.young_modulus_kPa_error} />;
-  if (by === 'effective')
-    return (
-      <>
-        <p class={typeof effective === 'number' ? 'large' : 'large none'}>
-          {typeof effective === 'number' ? <Value value={effective} error={null} name="E_eff" /> : 'No effective modulus: the cell lies outside the table'}
-        </p>
-        {typeof effective === 'number' && <p class="soft">effective modulus under the axial tension of the recording</p>}
-        <p class="soft from-deformation">
-          {fromDeformation}
-          {value !== null && ' from deformation, as of a solid'}
-        </p>
-      </>
-    );
-  if (by !== 'elongated' && by !== 'none')
-    return (
-      <>
-        <p class={value === null ? 'large none' : 'large'}>{fromDeformation}</p>
-        {value !== null && <p class="soft">from deformation{by === 'deformation' && ', as is recommended for the recording'}</p>}
-      </>
-    );
+  const found = {
+    deformation: ofDeformation,
+    elongated: {
+      name: nameOf(recommendedFeature('elongated')!),
+      value: detail.young_modulus_asymmetry_kPa ?? detail.young_modulus_inertia_kPa ?? null,
+      error: detail.young_modulus_asymmetry_kPa_error ?? detail.young_modulus_inertia_kPa_error,
+      none: '',
+    },
+    effective: {
+      name: nameOf(recommendedFeature('effective')!),
+      value: typeof effective === 'number' ? effective : null,
+      error: null,
+      symbol: <>E<sub>eff</sub></>,
+      none: 'the cell lies outside the table',
+    },
+  }[by];
+  const first = found ?? ofDeformation;
   return (
     <>
-      {by === 'none' && <p class="large none">No modulus is recommended for the recording</p>}
-      {by === 'elongated' && (
+      {by === 'none' ? (
+        <p class="large none">No modulus is recommended for the recording</p>
+      ) : (
         <>
-          <p class={elongated === null ? 'large none' : 'large'}>{elongated === null ? 'No modulus as of an elongated cell' : <Value value={elongated} error={error} />}</p>
-          {elongated !== null && <p class="soft">as of an elongated cell, as is recommended for the recording</p>}
+          <p class={first.value === null ? 'large none' : 'large'}>
+            {first.value === null ? 'No modulus' : <Value value={first.value} error={first.error} name={'symbol' in first ? first.symbol : 'E'} />}
+          </p>
+          <p class="soft">
+            {first.name}
+            {first.value === null ? noneBecause(first.none) : found && ', recommended for the recording'}
+          </p>
         </>
       )}
-      <p class="soft from-deformation">
-        {fromDeformation}
-        {value !== null && ' from deformation'}
-      </p>
+      {(first !== ofDeformation || by === 'none') && (
+        <p class="soft from-deformation">
+          {ofDeformation.name}
+          {deformation === null ? noneBecause(detail.state) : <>: <Value value={deformation} error={ofDeformation.error} name="" /></>}
+        </p>
+      )}
     </>
   );
 }

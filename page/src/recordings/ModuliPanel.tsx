@@ -3,7 +3,7 @@ import { Progress } from '../shell/Progress';
 import { notify } from '../shell/notices';
 import { useStore } from '../shell/store';
 import { focus, gates, itemOf, items, moduliSettings, recordings, titleOf } from './model';
-import { nameOf } from './features';
+import { nameOf, recommendedFeature, recommendedName } from './features';
 import { featuresOf, gateOptions, gatesWithoutOption } from './gates';
 import { replacedTemperatures } from './origin';
 import { endModuli, moduli, runModuli } from './moduli';
@@ -75,9 +75,13 @@ function Run() {
 /** Of the events within the gates: the number to report, or why there is none; why this one stands with all that the moduli rest on. */
 function ToReport({ of }: { of: Recommended | undefined }) {
   const short = of ? inShort(of) : '…';
+  const kind = of && recommendedFeature(of.by);
   return (
     <div class="to-report">
-      <h3>Recommended: {short === 'none' ? 'no modulus' : `E ${/^[<>]/.test(short) ? short : `= ${short}`} kPa`}</h3>
+      <h3>
+        {recommendedName}: {short === 'none' ? short : `${short} kPa`}
+      </h3>
+      {kind && <p class="soft">{nameOf(kind)}</p>}
       {of && !Number.isFinite(of.value) && <p class="soft">{of.text}</p>}
     </div>
   );

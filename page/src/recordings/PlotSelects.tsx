@@ -37,7 +37,7 @@ function AxisSelect({ plot, features, which }: SelectsProps & { which: 'x' | 'y'
       <label>
         <span class="hidden">{title} axis</span>
         <span aria-hidden="true">{which}</span>
-        <select value={axis.feature} onChange={({ currentTarget }) => change({ feature: currentTarget.value })}>
+        <select value={axis.feature} title={labelOf(axis.feature)} onChange={({ currentTarget }) => change({ feature: currentTarget.value })}>
           <FeatureOptions features={features} chosen={axis.feature} />
         </select>
       </label>

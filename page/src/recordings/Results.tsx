@@ -2,7 +2,10 @@
 import tabs from 'every:./tabs';
 import { useStore } from '../shell/store';
 import { items, measured, panel, recordings } from './model';
+import { labelOf } from './features';
 import { FeatureOptions } from './PlotSelects';
+import { fittedFeatures } from './population_fits';
+import { population } from './population_runs';
 import type { Tab } from './tab';
 
 const inOrder: Tab[] = [...tabs].sort((a, b) => a.place - b.place);
@@ -19,11 +22,13 @@ function moveTab(event: KeyboardEvent, now: Tab): void {
 
 function MeasuredSelect() {
   const feature = useStore(measured);
-  const offered = [...new Set(recordings(useStore(items)).flatMap((item) => item.features ?? []))];
+  const found = useStore(population);
+  const ofEvents = recordings(useStore(items)).flatMap((item) => item.features ?? []);
+  const offered = [...new Set([...ofEvents, ...(found ? fittedFeatures(found.record) : [])])];
   return (
     <label class="choice">
-      <span>Of</span>
-      <select value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
+      <span>Quantity</span>
+      <select aria-label="Quantity" title={labelOf(feature)} value={feature} onChange={({ currentTarget }) => measured.set(currentTarget.value)}>
         <FeatureOptions features={offered} chosen={feature} />
       </select>
     </label>
@@ -32,7 +37,7 @@ function MeasuredSelect() {
 
 export function Results() {
   const chosen = useStore(panel);
-  const shown = inOrder.find(({ name }) => name === chosen) ?? inOrder[0];
+  const shown = inOrder.find(({ name, former }) => chosen === name || chosen === former) ?? inOrder[0];
   return (
     <section class="results" aria-label="Results">
       <div class="results-head">

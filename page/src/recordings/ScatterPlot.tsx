@@ -114,7 +114,7 @@ function Drawn({ plot, item }: { plot: Plot; item: Item }) {
         </svg>
       </div>
       <p class="plot-keys" aria-hidden="true">
-        Arrows move, + − zoom, 0 all · Shift + arrows: crosshair, Enter chooses · N, P next, previous · B box, G polygon, C closes
+        Arrows: move · +, −, 0: zoom · Shift + arrows, Enter: select · N, P: next, previous · B: box · G, C: polygon
       </p>
       <PlotNote plot={plot} item={item} lines={lines} />
     </>

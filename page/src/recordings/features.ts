@@ -14,10 +14,9 @@ const known = new Map<string, [string, string]>(Object.entries({
   area_ratio: ['Area ratio', ''],
   aspect: ['Aspect ratio of the box', ''],
   bright_avg: ['Brightness, mean', ''],
-  bright_sd: ['Brightness, sd', ''],
+  bright_sd: ['Brightness, SD', ''],
   circ: ['Circularity', ''],
   deform: ['Deformation', ''],
-  emodulus: ['E from deformation', 'kPa'],
   emodulus_stored: ["Young's modulus stored in the file", 'kPa'],
   frame: ['Frame', ''],
   index: ['Index', ''],
@@ -58,9 +57,31 @@ export function labelOf(feature: string): string {
   return unit === '' ? nameOf(feature) : `${nameOf(feature)} (${unit})`;
 }
 
+/** In place of a number that no recording has. */
+export const noValues = 'No recording has this quantity yet. “Compute moduli” on the left computes the moduli of its events.';
 export const youngModulus = 'emodulus';
-/** Young's moduli of solids, from deformation or as of elongated cells: what is recommended is one of them. */
-export const isYoungModulus = (feature: string): boolean => feature === youngModulus || /^young_modulus_.*_kPa$/.test(feature);
+const effectiveModulus = 'effective_modulus_kPa';
+const elongatedModuli = ['young_modulus_asymmetry_kPa', 'young_modulus_inertia_kPa'];
+/** The moduli of which one is recommended for a recording. */
+export const isRecommendable = (feature: string): boolean => [youngModulus, effectiveModulus, ...elongatedModuli].includes(feature);
+
+export const recommendedName = 'Recommended modulus';
+/** The modulus that a word of `recommended_modulus` means; none for "none". */
+export const recommendedFeature = (by: string): string | undefined =>
+  ({ deformation: youngModulus, elongated: elongatedModuli[0], effective: effectiveModulus })[by];
+
+const fitted: Record<string, string> = {
+  young_modulus: youngModulus,
+  stiffness: 'stiffness_kPa',
+  effective_modulus: effectiveModulus,
+  cortex_modulus: 'cortex_modulus_mN_per_m',
+  cortex_tension: 'tension_mN_per_m',
+  axial_tension: 'axial_tension_Pa',
+};
+/** The number of events whose median a fit of populations determines; of cells with a cortex the Young's modulus is that of the bulk. */
+export const featureOfQuantity = (quantity: string, model: string): string =>
+  quantity === 'young_modulus' && model === 'cortex' ? 'young_modulus_with_cortex_kPa' : (fitted[quantity] ?? quantity);
+
 /** A modulus that the recording brings along: of another program, or of a companion that is opened as a recording. */
 export const storedModulus = 'emodulus_stored';
 /** What the program computes with the moduli; all else is in the file. */

@@ -64,7 +64,7 @@ plots.subscribe(leaveEvent);
 export const tool = store<Tool>('look');
 /** The name of the tab that is shown. */
 export const panel = store<string>('statistics');
-/** The feature of the statistics and the distributions. */
+/** The number in the tabs Statistics and Populations. */
 export const measured = store<string>(youngModulus);
 export const moduliSettings = store<Record<string, string>>({});
 

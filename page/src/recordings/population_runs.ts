@@ -3,11 +3,12 @@ import { fitPopulation, type PopulationAnswer, type PopulationCondition } from '
 import { notifyFailure } from '../shell/notices';
 import { store } from '../shell/store';
 import { gateSettings } from './gates';
-import { gates, items, moduliSettings, recordings } from './model';
-import { sessionsOf } from './condition_dots';
+import { gates, items, measured, moduliSettings, recordings } from './model';
+import { fittedFeatures, sessionsOf } from './population_fits';
 import { settingsToSend } from './settings';
 
-export const population = store<PopulationAnswer | null>(null);
+/** With the conditions that were fitted. */
+export const population = store<(PopulationAnswer & { fitted: PopulationCondition[] }) | null>(null);
 export const populationRuns = store(false);
 /** Whether the recordings of one replicate belong together. */
 export const paired = store(false);
@@ -38,7 +39,10 @@ export async function computePopulation(): Promise<void> {
       paired: paired.get(),
       ...(cellModel.get() !== '' && { model: cellModel.get() }),
     };
-    population.set(await fitPopulation({ conditions, settings }, stopping.signal));
+    const answer = await fitPopulation({ conditions, settings }, stopping.signal);
+    const features = fittedFeatures(answer.record);
+    population.set({ ...answer, fitted: conditions });
+    if (features.length > 0 && !features.includes(measured.get())) measured.set(features[0]);
   } catch (failure) {
     notifyFailure(failure);
   } finally {

@@ -4,6 +4,8 @@ import type { ComponentType } from 'preact';
 export interface Tab {
   /** In the session and in the page's elements. */
   name: string;
+  /** In sessions of earlier versions. */
+  former?: string;
   title: string;
   /** Tabs stand in the order of these numbers. */
   place: number;

@@ -15,9 +15,9 @@ function End({ gate, which }: { gate: RangeGate; which: 'low' | 'high' }) {
       type="text"
       inputMode="decimal"
       class="number"
-      aria-label={`${which === 'low' ? 'Least' : 'Greatest'} ${nameOf(gate.feature)}`}
+      aria-label={`${which === 'low' ? 'Minimum' : 'Maximum'} ${nameOf(gate.feature)}`}
       value={gate[which] ?? ''}
-      placeholder={which === 'low' ? 'least' : 'greatest'}
+      placeholder={which === 'low' ? 'minimum' : 'maximum'}
       canTake={(text) => text.trim() === '' || numberIn(text) !== null}
       take={(text) => changeGate(gate.id, { [which]: numberIn(text) })}
     />

@@ -1,138 +1,18 @@
-// Populations: what the recordings of each condition say about its cells, one dot a session, and whether conditions differ.
-import { Fragment } from 'preact';
-import { useState } from 'preact/hooks';
-import type { Population, PopulationRecording } from '../../api';
+// Populations: how a number is distributed in each recording, what it is in each condition, and whether conditions differ.
+import { useMemo, useState } from 'preact/hooks';
 import { significant } from '../../draw/numbers';
 import { Progress } from '../../shell/Progress';
 import { useStore } from '../../shell/store';
-import { items, recordings } from '../model';
+import { Conditions, Ratios, rangeText } from '../Conditions';
+import { isRecommendable } from '../features';
+import { items, measured, recordings } from '../model';
+import { PopulationPlot } from '../PopulationPlot';
+import { fitOf, intervalOf, sessionsOf, type NumberFit } from '../population_fits';
 import { cellModel, computePopulation, doses, doseUnit, paired, population, populationRuns, stopPopulation, type CellModel } from '../population_runs';
-import { dotsOf, intervalOf, sessionsOf, type Interval } from '../condition_dots';
-import { RecommendedMean } from '../Conditions';
-import { recommendedOf } from '../recommended';
-import { reports } from '../reports';
-import { ticksOf, type Span } from '../scale';
+import type { ScaleKind } from '../scale';
 import type { Tab } from '../tab';
-import { useSize } from '../use_size';
+import { useOrigin } from './Statistics';
 import './Populations.css';
-
-const height = 210;
-const left = 62;
-const inner = { top: 10, bottom: 26 };
-const widest = 150;
-
-type Quantity = Population['quantities'][number];
-
-function Dot({ recording, quantity, x, up }: { recording: PopulationRecording; quantity: Quantity; x: number; up: (value: number) => number }) {
-  const { value, low, high } = intervalOf(recording, quantity.median)!;
-  const fits = recording.checks.every((check) => check.fits);
-  const said = `${recording.recording.split('/').pop()}: ${significant(value)} ${quantity.unit}${fits ? '' : ', does not fit'}`;
-  return (
-    <g class={fits ? 'session' : 'session misfit'}>
-      <title>{said}</title>
-      {low !== null && high !== null && <path d={`M${x} ${up(low)}V${up(high)}`} />}
-      <circle cx={x} cy={up(value)} r={4} />
-    </g>
-  );
-}
-
-function Plot({ found, quantity, room }: { found: Population; quantity: Quantity; room: number }) {
-  const { dots, span, slots } = dotsOf(found, quantity.median);
-  const slot = Math.min(widest, (room - left) / Math.max(1, slots));
-  const up = (value: number) => height - inner.bottom - ((value - span.low) / (span.high - span.low)) * (height - inner.top - inner.bottom);
-  return (
-    <svg class="populations-plot" width={left + slot * slots + 8} height={height} role="img" aria-label={`Median ${quantity.symbol} of each recording, by condition`}>
-      <Axis span={span} up={up} right={left + slot * slots} title={`Median ${quantity.symbol}, ${quantity.unit}`} />
-      {found.conditions.map((row, k) => {
-        const { condition: name } = row;
-        const mean = intervalOf(row, quantity.median);
-        const x = left + slot * (k + 0.86);
-        return (
-          <g key={name}>
-            <text x={left + slot * (k + 0.5)} y={height - 8} text-anchor="middle">
-              {name}
-            </text>
-            {mean && (
-              <g class="condition-mean">
-                {mean.low !== null && mean.high !== null && <path d={`M${x} ${up(mean.low)}V${up(mean.high)}`} />}
-                <rect x={-4} y={-4} width={8} height={8} transform={`translate(${x} ${up(mean.value)}) rotate(45)`} />
-              </g>
-            )}
-          </g>
-        );
-      })}
-      {dots.map(({ recording, place }) => (
-        <Dot key={recording.recording} recording={recording} quantity={quantity} x={left + slot * place} up={up} />
-      ))}
-    </svg>
-  );
-}
-
-function Axis({ span, up, right, title }: { span: Span; up: (value: number) => number; right: number; title: string }) {
-  return (
-    <g class="plot-axes">
-      {ticksOf('linear', span, 4).map(({ place, label }) => (
-        <g key={place} transform={`translate(${left} ${up(place).toFixed(1)})`}>
-          <line x2={-5} />
-          <text x={-8} dy="0.32em" text-anchor="end">
-            {label}
-          </text>
-        </g>
-      ))}
-      <path d={`M${left} ${inner.top}V${height - inner.bottom}H${right}`} fill="none" />
-      <text class="plot-title" transform={`translate(13 ${(height - inner.bottom) / 2}) rotate(-90)`} text-anchor="middle">
-        {title}
-      </text>
-    </g>
-  );
-}
-
-function interval(value: Interval | undefined): string {
-  return value && value.low !== null && value.high !== null ? `${significant(value.low, 3)} to ${significant(value.high, 3)}` : '–';
-}
-
-function Table({ found, quantity: { quantity, median, symbol, unit } }: { found: Population; quantity: Quantity }) {
-  const all = recordings(useStore(items)).filter((item) => item.state === 'ready');
-  const runs = useStore(reports);
-  const isModulus = quantity === 'young_modulus' && all.some(({ item }) => recommendedOf(runs[item]));
-  return (
-    <table class="conditions">
-      <caption class="hidden">Populations by condition</caption>
-      <thead>
-        <tr>
-          <th scope="col">Condition</th>
-          <th scope="col">{`Median ${symbol}`}</th>
-          <th scope="col">95 % interval</th>
-          <th scope="col">p</th>
-        </tr>
-      </thead>
-      <tbody>
-        {found.conditions.map((row) => {
-          const mean = intervalOf(row, median);
-          return (
-            <Fragment key={row.condition}>
-              <tr>
-                <th scope="row">{row.condition}</th>
-                <td>{mean ? `${significant(mean.value, 3)} ${unit}` : '–'}</td>
-                <td>{interval(mean)}</td>
-                <td />
-              </tr>
-              {isModulus && <RecommendedMean of={all.filter((item) => item.condition === row.condition)} title="Recommended E" />}
-            </Fragment>
-          );
-        })}
-        {found.comparisons.filter((row) => row.quantity === quantity).map((row) => (
-          <tr key={row.treated} class="comparison">
-            <th scope="row">{`${row.treated} / ${row.control}`}</th>
-            <td>{significant(row.ratio, 3)}</td>
-            <td>{row.p === null ? `${interval(intervalOf(row, 'ratio', 'ratio_by_sampling'))} *` : interval(intervalOf(row, 'ratio'))}</td>
-            <td>{row.p === null ? 'none' : significant(row.p, 2)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
-}
 
 function Start() {
   const all = recordings(useStore(items));
@@ -142,7 +22,7 @@ function Start() {
   const conditions = sessionsOf(all);
   if (running) return <Progress label="Fitting populations" onStop={stopPopulation} />;
   return (
-    <div class="row">
+    <>
       <button class="primary" disabled={conditions.length === 0} onClick={() => void computePopulation()}>
         Fit populations
       </button>
@@ -159,7 +39,7 @@ function Start() {
           <option value="cortex">Bulk and cortex</option>
         </select>
       </label>
-    </div>
+    </>
   );
 }
 
@@ -194,76 +74,85 @@ function Doses() {
   );
 }
 
-/** Trend and EC50 of the quantity that is shown. */
-function DoseResponse({ found, quantity }: { found: Population; quantity: string }) {
-  const row = found.dose_responses?.find((each) => each.quantity === quantity);
+/** Trend and EC50 of the number that is shown. */
+function DoseResponse({ fit: { record, quantity } }: { fit: NumberFit }) {
+  const row = record.dose_responses?.find((each) => each.quantity === quantity);
   if (!row) return null;
-  const unit = found.doses?.unit ? ` ${found.doses.unit}` : '';
+  const unit = record.doses?.unit ? ` ${record.doses.unit}` : '';
   const ec50 = intervalOf(row, 'ec50');
   const trend = intervalOf(row, 'ratio_per_decade');
   return (
     <p class="dose-response">
-      {trend && `Ratio ${significant(trend.value, 3)} for ten times the dose (${interval(trend)})`}
+      {trend && `Ratio ${significant(trend.value, 3)} for ten times the dose (${rangeText(trend)})`}
       {row.p_of_trend !== null && `, p ${significant(row.p_of_trend, 2)}`}
-      {ec50 && `; EC50 ${significant(ec50.value, 2)}${unit} (${interval(ec50)})`}
+      {ec50 && `; EC50 ${significant(ec50.value, 2)}${unit} (${rangeText(ec50)})`}
+    </p>
+  );
+}
+
+/** The fit in the program's words, and as a command. */
+function Words() {
+  const found = useStore(population);
+  const [open, setOpen] = useState(false);
+  if (!found) return null;
+  return (
+    <details open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+      <summary>In words, and as a command</summary>
+      <ul class="remarks">
+        {found.lines.map((line) => (
+          <li key={line}>{line}</li>
+        ))}
+      </ul>
+      <code tabIndex={0}>{found.command}</code>
+    </details>
+  );
+}
+
+function Legend({ feature, isFitted }: { feature: string; isFitted: boolean }) {
+  return (
+    <p class="soft">
+      {isRecommendable(feature) && 'Diamond: recommended modulus. '}
+      Circle: median of the events; short lines: its 95 % interval from the ranks; bar: quartiles; the axis shows the central 95 % of the events. Intervals of conditions: Student's t over their
+      replicates, from two on.
+      {isFitted &&
+        ' Dot: median of the cells (fit) with its 95 % interval, open if the checks fail; line and band: that of the condition, by the scatter of its recordings.'}
     </p>
   );
 }
 
 function Populations() {
+  const feature = useStore(measured);
   const found = useStore(population);
-  const { element, width } = useSize<HTMLDivElement>();
-  const [open, setOpen] = useState(false);
-  const [chosen, choose] = useState('');
-  const quantities = found?.record.quantities ?? [];
-  const quantity = quantities.find((each) => each.quantity === chosen) ?? quantities[0];
+  const [scale, setScale] = useState<ScaleKind>('linear');
+  const fit = useMemo(() => (found ? fitOf(found.record, found.fitted, feature) : undefined), [found, feature]);
+  const origin = useOrigin(feature);
   return (
-    <div class="distributions populations">
-      <div class="distribution-plot" ref={element} tabIndex={0} role="region" aria-label="Populations by condition">
-        {found && quantity ? (
-          <Plot found={found.record} quantity={quantity} room={width} />
-        ) : (
+    <div class="populations">
+      <div class="row population-start">
+        <Start />
+        <label class="check">
+          <input type="checkbox" checked={scale === 'log'} onChange={({ currentTarget }) => setScale(currentTarget.checked ? 'log' : 'linear')} />
+          Logarithmic
+        </label>
+      </div>
+      <PopulationPlot feature={feature} scale={scale} fit={fit} />
+      <div class="population-notes">
+        <Doses />
+        <Conditions feature={feature} fit={fit} />
+        {fit && <Ratios fit={fit} />}
+        {fit && <DoseResponse fit={fit} />}
+        <Words />
+        {!found && (
           <p class="soft">
-            Name conditions and replicates in the list. Each recording then has the modulus of its cells: that of solids, or the effective
-            modulus of cells that are longer than the flow makes them. Conditions are compared by their recordings.
+            The fit gives each recording the modulus of its cells: Young's modulus of solids, or the effective modulus of cells that are longer
+            than the flow makes them. Conditions are compared by their recordings.
           </p>
         )}
-      </div>
-      <div class="distribution-notes">
-        <Start />
-        <Doses />
-        {quantities.length > 1 && (
-          <label class="row">
-            Shown
-            <select value={quantity?.quantity} onChange={({ currentTarget }) => choose(currentTarget.value)}>
-              {quantities.map((each) => (
-                <option key={each.quantity} value={each.quantity}>
-                  {each.symbol}
-                </option>
-              ))}
-            </select>
-          </label>
-        )}
-        {found && quantity && <Table found={found.record} quantity={quantity} />}
-        {found && quantity && <DoseResponse found={found.record} quantity={quantity.quantity} />}
-        {found?.record.comparisons.some(({ p }) => p === null) && (
-          <p class="soft">* By sampling alone: a single recording gives no scatter between recordings.</p>
-        )}
-        {found && (
-          <details open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
-            <summary>In words, and as a command</summary>
-            <ul class="remarks">
-              {found.lines.map((line) => (
-                <li key={line}>{line}</li>
-              ))}
-            </ul>
-            <code tabIndex={0}>{found.command}</code>
-          </details>
-        )}
-        <p class="soft">Dot: a recording with its 95 % interval, open where the checks do not hold; diamond: the condition, by the scatter of its recordings.</p>
+        {origin && <p class="soft">{origin}</p>}
+        <Legend feature={feature} isFitted={fit !== undefined} />
       </div>
     </div>
   );
 }
 
-export default { name: 'populations', title: 'Populations', place: 4, Content: Populations } satisfies Tab;
+export default { name: 'populations', former: 'distributions', title: 'Populations', place: 3, measures: true, Content: Populations } satisfies Tab;

@@ -4,7 +4,7 @@ import { significant } from '../../draw/numbers';
 import { useStore } from '../../shell/store';
 import { countWithin, statisticsOf } from '../analysis';
 import { columnsVersion } from '../columns';
-import { isComputed, isYoungModulus, labelOf, unitOf } from '../features';
+import { isComputed, isRecommendable, labelOf, noValues, recommendedName, unitOf } from '../features';
 import { focus, gates, items, measured, recordings, titleOf } from '../model';
 import { moduli } from '../moduli';
 import { originOf } from '../origin';
@@ -53,7 +53,7 @@ function Row({ item, feature }: { item: Item; feature: string }) {
       <td class="text" title={condition}>
         {condition}
       </td>
-      {isYoungModulus(feature) && <RecommendedCell item={item} />}
+      {isRecommendable(feature) && <RecommendedCell item={item} />}
       <td>{within === undefined ? '–' : counted(within)}</td>
       <td>{found ? counted(found.count) : '–'}</td>
       {(numbers ?? Array(6).fill(NaN)).map((value, k) => (
@@ -71,12 +71,12 @@ function StatisticsTable() {
   const shown = recordings(useStore(items)).filter((item) => item.state === 'ready');
   const missing = isComputed(feature) && !shown.some((item) => item.features?.includes(feature));
   const unit = unitOf(feature);
-  const isModulus = isYoungModulus(feature);
+  const isModulus = isRecommendable(feature);
   const isGated = useStore(gates).some((gate) => gate.on);
   const origin = useOrigin(feature);
   return (
     <div class="statistics">
-      {missing && <p class="soft">There are no moduli yet: choose “Compute moduli” on the left.</p>}
+      {missing && <p class="soft">{noValues}</p>}
       {origin && <p class="soft origin">{origin}</p>}
       <table>
         <caption class="hidden">{labelOf(feature)} by recording</caption>
@@ -84,7 +84,7 @@ function StatisticsTable() {
           <tr>
             <th scope="col">Recording</th>
             <th scope="col" class="text">Condition</th>
-            {isModulus && <th scope="col">Recommended E</th>}
+            {isModulus && <th scope="col" class="two-words">{recommendedName}</th>}
             <th scope="col">Events</th>
             <th scope="col" class="two-words">With value</th>
             <th scope="col">Median</th>
@@ -103,9 +103,9 @@ function StatisticsTable() {
       </table>
       <p class="soft">
         {unit && `In ${unit}. `}
-        {isModulus && 'Recommended E: the number to report, with its errors by the scatter of the events and by what they share; the reason is under the pointer and at the left. '}
-        {isModulus && isGated && 'It is that of the events within the gates. '}
-        SE is the standard error of the mean: SD divided by the root of the number of events.
+        {isModulus && `${recommendedName}: the number to report ± statistical error ± error shared by the events; the reason is under the pointer and on the left. `}
+        {isModulus && isGated && 'It refers to the events within the gates. '}
+        SE is the standard error of the mean: SD divided by the square root of the number of events.
       </p>
     </div>
   );
