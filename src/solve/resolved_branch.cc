@@ -121,25 +121,28 @@ ResolvedState ResolvedBranch::start(const Resolution& resolution, const Continua
   return state;
 }
 
+WayPoint ResolvedBranch::go(ResolvedState& state, double compliance, const ContinuationOptions& options,
+                            const Accept& accept, bool pauses) {
+  Discrete& discrete = *state.discrete;
+  const Metered metered(*this, discrete.system());
+  Path path = stiffness_path(discrete.system(), media_);
+  path.end = compliance;
+  ContinuationOptions here = with(options, accept, discrete);
+  if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
+  take(continue_branch(path, here, state.branch), state);
+  return WayPoint{state.status, state.branch.parameter};
+}
+
 void ResolvedBranch::advance(ResolvedState& state, double compliance, const ContinuationOptions& options,
                              const Accept& accept, Fits fits) {
-  const auto go = [&](bool pauses) {
-    Discrete& discrete = *state.discrete;
-    const Metered metered(*this, discrete.system());
-    Path path = stiffness_path(discrete.system(), media_);
-    path.end = compliance;
-    ContinuationOptions here = with(options, accept, discrete);
-    if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
-    take(continue_branch(path, here, state.branch), state);
-    return WayPoint{state.status, state.branch.parameter};
-  };
+  const auto go_on = [&](bool pauses) { return go(state, compliance, options, accept, pauses); };
   const auto fit_here = [&] { return fit(state, options.newton); };
-  if (fits == Fits::ever_again) return fit_on_the_way(compliance, go, fit_here, least_gain_by_fit * compliance);
+  if (fits == Fits::ever_again) return fit_on_the_way(compliance, go_on, fit_here);
   const auto is_worn = [&](const WayPoint& here) {
     return here.status == Status::converged && here.parameter < compliance;
   };
-  WayPoint here = go(true);
-  if (is_worn(here) && !state.discrete->is_fitted() && fit_here()) here = go(true);
+  WayPoint here = go_on(true);
+  if (is_worn(here) && !state.discrete->is_fitted() && fit_here()) here = go_on(true);
   if (is_worn(here)) state.status = Status::mesh_folded;
 }
 
@@ -195,8 +198,9 @@ ResolvedState ResolvedBranch::enter(ResolvedState& from, const Resolution& resol
                                     const ContinuationOptions& options, const NewtonOptions& across) {
   if (!from.discrete) return start(resolution, options, smooth());
   for (const double fraction : steps_back) {
-    // Where a mesh is worn its states are far from those of the next one.
+    // Where a mesh is worn its states are far from those of the next one, and another mesh turns elsewhere.
     if (from.status == Status::mesh_folded && fraction > std::ranges::min(steps_back)) continue;
+    if (from.status == Status::limit_point && fraction == 1) continue;
     const double farthest = fraction * from.branch.parameter;
     const auto before = std::find_if(trail_.rbegin(), trail_.rend(), [&](const ResolvedState& passed) {
       return passed.discrete->resolution() == from.discrete->resolution() && passed.branch.parameter <= farthest;
@@ -275,6 +279,23 @@ bool ResolvedBranch::trace(ResolvedState& state, const ContinuationOptions& opti
   return gains;
 }
 
+void ResolvedBranch::go_on(ResolvedState& state, const CoarseWay& way, const ContinuationOptions& options) {
+  if (!geometry_.traces_ends || way.fits == Fits::once) return advance(state, 1, options, smooth(), way.fits);
+  const auto go_here = [&](bool pauses) { return go(state, 1, options, smooth(), pauses); };
+  const auto fit_here = [&] {
+    if (is_unexplained(state.status)) {
+      const Status before = state.status;
+      const bool gains = trace(state, options);
+      if (state.status == Status::limit_point || state.status == Status::surface_unstable || is_stopped() ||
+          state.branch.parameter >= 1)
+        return false;
+      if (!gains || state.status == Status::converged) state.status = before;
+    }
+    return fit(state, options.newton);
+  };
+  fit_on_the_way(1, go_here, fit_here, least_gain_by_fit);
+}
+
 void ResolvedBranch::look_beyond(ResolvedState& state, const ContinuationOptions& options) {
   for (int i = 0; i < max_traces && !is_stopped(); ++i) {
     const Status before = state.status;
@@ -299,7 +320,7 @@ ResolvedState ResolvedBranch::follow(Search search) {
         options(last ? geometry_.min_step_at_last : geometry_.min_step_before_refining);
     ResolvedState next = enter(state, way.resolution, way_options, geometry_.across);
     if (next.status == Status::converged && next.branch.parameter < 1)
-      advance(next, 1, way_options, smooth(), way.fits);
+      go_on(next, way, way_options);
     const double before = is_guided ? 0 : state.branch.parameter;
     const bool is_found = next.status == Status::converged || next.branch.tangent.size() > 0;
     if (is_found && next.branch.parameter >= before) {

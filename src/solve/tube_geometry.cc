@@ -37,6 +37,7 @@ bool have_same_elements(const Problem& a, const Problem& b, const Resolution& re
 /// With one ring of elements between core and surface the bulk below it is not resolved.
 void look_for_rims(Geometry& tube) {
   tube.ways = {{{coarse, 4}, false, Fits::once}, {{coarse, 6}, false, Fits::once}, {{dense, 6}}, {{dense, 8}}};
+  tube.traces_ends = true;
   tube.along.iteration_limit = 8;
   tube.min_step_before_refining = 3e-3;
   tube.gain_of_finer = never_hopeless;
