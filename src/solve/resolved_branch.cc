@@ -273,8 +273,8 @@ bool ResolvedBranch::trace(ResolvedState& state, const ContinuationOptions& opti
   // Between the last two states.
   const BranchState &before = state.branch, &after = report.states.back();
   const double fraction = (1 - before.parameter) / (after.parameter - before.parameter);
-  ResolvedState found = solved(state.discrete, 1, before.unknowns + fraction * (after.unknowns - before.unknowns),
-                               options.newton);
+  ResolvedState found =
+      solved(state.discrete, 1, before.unknowns + fraction * (after.unknowns - before.unknowns), options.newton);
   if (found.status == Status::converged) state = std::move(found);
   return gains;
 }
@@ -319,8 +319,7 @@ ResolvedState ResolvedBranch::follow(Search search) {
     const ContinuationOptions way_options =
         options(last ? geometry_.min_step_at_last : geometry_.min_step_before_refining);
     ResolvedState next = enter(state, way.resolution, way_options, geometry_.across);
-    if (next.status == Status::converged && next.branch.parameter < 1)
-      go_on(next, way, way_options);
+    if (next.status == Status::converged && next.branch.parameter < 1) go_on(next, way, way_options);
     const double before = is_guided ? 0 : state.branch.parameter;
     const bool is_found = next.status == Status::converged || next.branch.tangent.size() > 0;
     if (is_found && next.branch.parameter >= before) {

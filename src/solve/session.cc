@@ -26,7 +26,8 @@ void explain(const Problem& problem, const Geometry& geometry, const ResolvedSta
   }
   outcome.status = judged(outcome.status, {r.stability_margin, r.estimated_error, problem.accuracy});
   // The branch that was not followed to its end on a fine mesh ends later than it was seen to.
-  const bool is_early = (last.gave_up && geometry.ends_late_on_finer) || (geometry.knows_ends && is_far_too_soft(problem));
+  const bool is_early =
+      (last.gave_up && geometry.ends_late_on_finer) || (geometry.knows_ends && is_far_too_soft(problem));
   const auto known_end = is_early && geometry.knows_ends ? min_shear_modulus(problem) : std::nullopt;
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
                                           .deformation_floor = r.deformation_floor,

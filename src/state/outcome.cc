@@ -146,10 +146,11 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
                                 last);
       return unstable_surface(where, last);
     case Status::limit_point:
-      return fmt::format("The branch of stationary shapes turns back at {} (limit point; the last state before it has {})"
-                         ": softer cells deform without limit; raise the moduli above that, or lower flow rate or "
-                         "viscosity.",
-                         in_wanted_moduli(last.turning), where);
+      return fmt::format(
+          "The branch of stationary shapes turns back at {} (limit point; the last state before it has {})"
+          ": softer cells deform without limit; raise the moduli above that, or lower flow rate or "
+          "viscosity.",
+          in_wanted_moduli(last.turning), where);
     case Status::branch_ended:
       return "The branch of stationary shapes was not followed beyond " + where +
              ", where no next state was found; raise the moduli above that, or lower flow rate or viscosity.";
