@@ -4,31 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "solve/arclength.h"
-#include "solve/fit_on_the_way.h"
+#include "solve/metered.h"
 #include "solve/settle.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
-
-/// While it lives, what a system works is counted, and the system gives up its work once it is to stop.
-class ResolvedBranch::Metered {
- public:
-  Metered(ResolvedBranch& branch, NonlinearSystem& system) : branch_(branch), system_(system), before_(system.work()) {
-    system_.obey(branch.limits_);
-  }
-  ~Metered() {
-    system_.obey({});
-    branch_.statistics_ += system_.work() - before_;
-  }
-  Metered(const Metered&) = delete;
-  Metered& operator=(const Metered&) = delete;
-
- private:
-  ResolvedBranch& branch_;
-  NonlinearSystem& system_;
-  WorkMeter before_;
-};
 
 ResolvedBranch::ResolvedBranch(const Problem& problem, MediaAt media, Geometry geometry, ProgressCallback report,
                                const WorkLimits& limits)
@@ -105,9 +85,6 @@ void ResolvedBranch::take(const ContinuationReport& report, ResolvedState& state
   statistics_.newton_iterations += report.newton_iterations;
   statistics_.continuation_steps += report.steps;
 }
-
-/// Of the compliance, between two ends of a way at which its mesh is fitted: near a fold fits gain ever less.
-constexpr double least_gain_by_fit = 5e-3;
 
 /// Where a state is carried to another resolution: so far back from the last one, and farther.
 constexpr double steps_back[] = {1, 0.92, 0.8};
@@ -227,87 +204,7 @@ bool is_hopeless(const Geometry& geometry, double coarse_end, double end) {
   return end > 0 && end * (geometry.gain_of_finer + change) < 1;
 }
 
-/// Where a way ends: of Newton's failures, any.
-bool is_unexplained(Status status) {
-  return status == Status::iteration_limit || status == Status::branch_ended || status == Status::mesh_folded ||
-         status == Status::singular_matrix;
-}
-
-/// So often the mesh is fitted where a branch is traced.
-constexpr int max_traces = 6;
-
 }  // namespace
-
-bool ResolvedBranch::trace(ResolvedState& state, const ContinuationOptions& options) {
-  Discrete& discrete = *state.discrete;
-  const Metered metered(*this, discrete.system());
-  ArcOptions arc;
-  arc.newton = options.newton;
-  arc.newton.tolerance = geometry_.fine.tolerance;
-  arc.newton.iteration_limit = geometry_.across.iteration_limit;
-  arc.max_correction = options.max_correction;
-  arc.fold_limit = 1;
-  const Accept accept = smooth();
-  bool is_refused = false;
-  arc.go_on = [&](const BranchState& found) {
-    if (found.parameter >= 1 || discrete.is_worn(found.unknowns)) return false;
-    is_refused = !accept(discrete, found);
-    return !is_refused;
-  };
-  ArcReport report = trace_arc(stiffness_path(discrete.system(), media_), arc, state.branch);
-  statistics_.newton_iterations += report.newton_iterations;
-  if (report.states.size() < 2) return state.status = report.status, false;
-  statistics_.continuation_steps += int(report.states.size()) - 1;
-  const bool turns = !report.folds.empty();
-  // Not the one beyond the fold, the surface's limit, or the requested compliance.
-  const bool is_beyond = turns || is_refused || report.states.back().parameter >= 1;
-  const std::size_t last = report.states.size() - 1 - (is_beyond ? 1 : 0);
-  const bool gains = last > 0;
-  if (turns) state.turning = turning_parameter(report, report.folds.front());
-  state.status = turns ? Status::limit_point : is_refused ? Status::surface_unstable : report.status;
-  if (gains) {
-    state.branch = std::move(report.states[last]);
-    state.branch.tangent = {};
-  }
-  if (!is_beyond || turns || is_refused) return gains;
-  // Between the last two states.
-  const BranchState &before = state.branch, &after = report.states.back();
-  const double fraction = (1 - before.parameter) / (after.parameter - before.parameter);
-  ResolvedState found =
-      solved(state.discrete, 1, before.unknowns + fraction * (after.unknowns - before.unknowns), options.newton);
-  if (found.status == Status::converged) state = std::move(found);
-  return gains;
-}
-
-void ResolvedBranch::go_on(ResolvedState& state, const CoarseWay& way, const ContinuationOptions& options) {
-  if (!geometry_.traces_ends || way.fits == Fits::once) return advance(state, 1, options, smooth(), way.fits);
-  const auto go_here = [&](bool pauses) { return go(state, 1, options, smooth(), pauses); };
-  const auto fit_here = [&] {
-    if (is_unexplained(state.status)) {
-      const Status before = state.status;
-      const bool gains = trace(state, options);
-      if (state.status == Status::limit_point || state.status == Status::surface_unstable || is_stopped() ||
-          state.branch.parameter >= 1)
-        return false;
-      if (!gains || state.status == Status::converged) state.status = before;
-    }
-    return fit(state, options.newton);
-  };
-  fit_on_the_way(1, go_here, fit_here, least_gain_by_fit);
-}
-
-void ResolvedBranch::look_beyond(ResolvedState& state, const ContinuationOptions& options) {
-  for (int i = 0; i < max_traces && !is_stopped(); ++i) {
-    const Status before = state.status;
-    const bool gains = trace(state, options);
-    if (state.status == Status::stopped || state.status == Status::limit_point ||
-        state.status == Status::surface_unstable || state.branch.parameter >= 1)
-      return;
-    if (!gains) state.status = before;
-    if (!fit(state, options.newton) && !gains) return;
-    if (state.status == Status::converged) state.status = Status::branch_ended;
-  }
-}
 
 ResolvedState ResolvedBranch::follow(Search search) {
   ResolvedState state;
@@ -321,8 +218,9 @@ ResolvedState ResolvedBranch::follow(Search search) {
     ResolvedState next = enter(state, way.resolution, way_options, geometry_.across);
     if (next.status == Status::converged && next.branch.parameter < 1) go_on(next, way, way_options);
     const double before = is_guided ? 0 : state.branch.parameter;
-    const bool is_found = next.status == Status::converged || next.branch.tangent.size() > 0;
-    if (is_found && next.branch.parameter >= before) {
+    const bool turns = next.status == Status::limit_point;  // seen finer it may do so earlier
+    const bool is_found = next.status == Status::converged || turns || next.branch.tangent.size() > 0;
+    if (is_found && (next.branch.parameter >= before || turns)) {
       state = std::move(next);
     } else {
       if (is_guided && next.status != Status::stopped) state = {};
@@ -340,8 +238,7 @@ ResolvedState ResolvedBranch::follow(Search search) {
     state.gave_up = from_the_start || is_hopeless(geometry_, before, state.branch.parameter);
     if (state.gave_up || has_collapsed(state)) break;
   }
-  if (search != Search::quick && !state.gave_up && state.branch.parameter > 0 && is_unexplained(state.status) &&
-      !is_nearly_unstable(state))
+  if (search != Search::quick && !state.gave_up && state.branch.parameter > 0 && !is_nearly_unstable(state))
     look_beyond(state, options(geometry_.min_step_at_last));
   return state;
 }

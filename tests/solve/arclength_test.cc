@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "shape/measures.h"
+#include "solve/stationary.h"
 #include "solve/tube.h"
 
 namespace rheocyte::arclength_test {
@@ -81,6 +82,18 @@ TEST(Arclength, AwayFromFoldsItFindsTheStatesOfTheParameter) {
   ASSERT_EQ(newton(folded.discrete.system(), media_at(folded.problem, last.parameter), {}, x).status,
             Status::converged);
   EXPECT_LT((x - last.unknowns).norm() / x.norm(), 1e-8);
+}
+
+TEST(Arclength, ACellBeyondTheFoldIsToldThatItsBranchTurns) {
+  // Of the moduli at which it does: those of the fold, with the last state just before it.
+  Folded folded;
+  Problem softer = folded.problem;
+  softer.bulk.shear_modulus *= 1.64 / 1.5;
+  const StationaryState state = solve_stationary(softer);
+  EXPECT_EQ(state.outcome.status, Status::limit_point) << state.outcome.message;
+  EXPECT_NEAR(state.outcome.reached, 0.892 * 1.64 / 1.5, 0.01);
+  EXPECT_NE(state.outcome.message.find("turns back at 1.02"), std::string::npos) << state.outcome.message;
+  EXPECT_NEAR(state.shape.deformation, 0.112, 0.004);
 }
 
 TEST(Arclength, ItEndsWhereItIsTold) {
