@@ -8,15 +8,18 @@ deformations of real cells (medians less what pixels add): 0.063 at 0.04 ul/s, 0
     python3 bench/soft_cells.py build/rheocyte [--section square] [--law skalak] [--bending 1e4] [--accuracy 1e-2]
 
 With --random 300: cells of any size, law, bending, tension and medium, at deformations from 0.08 to 0.2, or at the ends of
-their branches.
+their branches. --limit 120: solves of more seconds of processor time are stopped and listed as "too-long". --keep FOLDER
+keeps the case of every solve.
 """
 
 import argparse
+import collections
 import json
 import math
 import pathlib
 import random
 import resource
+import signal
 import subprocess
 import tempfile
 
@@ -83,14 +86,19 @@ def softer(settings, s):
     return settings | {"young": settings["young"] * s, "modulus": settings["modulus"] * s}
 
 
-def solved(program, settings):
+def solved(options, settings, name=""):
+    """The numbers of the state and the seconds of processor time; no numbers but the status if it took too long."""
+    limit = math.ceil(options.limit)
     with tempfile.TemporaryDirectory() as folder:
-        case = pathlib.Path(folder) / "case.toml"
+        case = pathlib.Path(options.keep or folder) / f"case{name}.toml"
         case.write_text(CASE.format(**settings))
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        run = subprocess.run([program, "solve", case, "-o", pathlib.Path(folder) / "result"], capture_output=True, text=True,
-                             check=False)
+        run = subprocess.run([options.program, "solve", case, "-o", pathlib.Path(folder) / "result"], capture_output=True,
+                             text=True, check=False,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
         seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        if run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return {"status": "too-long"}, seconds
         result = pathlib.Path(folder) / "result" / "result.json"
         if not result.exists():
             raise RuntimeError(run.stderr)
@@ -98,22 +106,25 @@ def solved(program, settings):
 
 
 def row(state, seconds):
+    if state["status"] == "too-long":
+        return f"- - too-long {seconds:.1f}"
     modes = " ".join(f"{state[f'mode_{k}']:.4f}" for k in range(2, 8))
     error = state["estimated_error"]
-    return f"{state['deformation']:.5f} {'-' if error is None else f'{error:.1e}'} {state['status']} {seconds:.1f} {modes}"
+    return (f"{state['deformation']:.5f} {'-' if error is None else f'{error:.1e}'} {state['status']} {seconds:.1f} "
+            f"{state['stability_margin']:.3f} {modes}")
 
 
 def find_hl60(options):
     """The factors of the moduli at which the cell reaches the deformations of real cells."""
-    print("rate s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
+    print("rate s d error status seconds margin " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
     s = 1.0
     for rate, target in TARGETS.items():
         found = []  # (ln s, ln d) of states
         lost = None  # the stiffest cell without a state
         for _ in range(8):
-            state, seconds = solved(options.program, hl60(options, rate, s))
-            d = state["deformation"]
+            state, seconds = solved(options, hl60(options, rate, s))
             print(f"{rate} {s:.4f} {row(state, seconds)}", flush=True)
+            d = state.get("deformation")
             if state["status"] == "converged":
                 if abs(d / target - 1) < 0.01:
                     break
@@ -132,18 +143,19 @@ def find_hl60(options):
 
 def find_random(options):
     """Random cells at deformations from 0.08 to 0.2, or at the end of their branches."""
-    draw = random.Random(options.seed)
-    print("cell law bending radius/R s d error status seconds " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
+    draw, ends = random.Random(options.seed), collections.Counter()
+    print("cell law bending radius/R s d error status seconds margin " + " ".join(f"c{k}" for k in range(2, 8)), flush=True)
     for i in range(options.random):
         settings, aim, s = random_cell(draw, options), draw.uniform(0.08, 0.2), 1.0
-        for _ in range(6):
-            state, seconds = solved(options.program, softer(settings, s))
+        for attempt in range(6):
+            state, seconds = solved(options, softer(settings, s), f"_{i}_{attempt}")
             size = settings["radius"] / (0.547 * settings["width"])
             print(f"{i} {settings['law']} {settings['bending']:.0f} {size:.2f} {s:.4f} {row(state, seconds)}", flush=True)
-            d = state["deformation"]
-            if state["status"] != "converged" or abs(d / aim - 1) < 0.1:
+            if state["status"] != "converged" or abs(state["deformation"] / aim - 1) < 0.1:
                 break
-            s *= min(max((d / aim) ** 0.8, 0.3), 2)
+            s *= min(max((state["deformation"] / aim) ** 0.8, 0.3), 2)
+        ends[state["status"]] += 1
+    print(", ".join(f"{status}: {count}" for status, count in ends.most_common()))
 
 
 def main():
@@ -155,6 +167,8 @@ def main():
     parser.add_argument("--accuracy", type=float, default=1e-2)
     parser.add_argument("--random", type=int, default=0, help="so many random cells instead")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--limit", type=float, default=600, help="seconds of processor time of one solve")
+    parser.add_argument("--keep", default="", help="folder that keeps the cases")
     options = parser.parse_args()
     find_random(options) if options.random > 0 else find_hl60(options)
 

@@ -38,7 +38,9 @@ std::vector<double> like(const std::vector<double>& breaks, int n) {
 }
 
 SurfaceBreaks like(const SurfaceBreaks& breaks, const SurfaceBreaks& numbers) {
-  return {like(breaks.front, int(numbers.front.size()) - 1), like(breaks.top, int(numbers.top.size()) - 1)};
+  const int top = int(numbers.top.size()) - 1;
+  return {like(breaks.front, int(numbers.front.size()) - 1), like(breaks.top, top),
+          breaks.axis.empty() ? breaks.axis : like(breaks.axis, top)};
 }
 
 namespace {
@@ -87,11 +89,20 @@ Point MeshElement::map(const ChannelGeometry& geometry, double xi1, double xi2) 
 
 std::array<double, 2> MeshElement::parameters(double xi1, double xi2) const {
   const double o = outward_first ? xi1 : xi2, a = outward_first ? xi2 : xi1;
-  return {outward[0] + o * (outward[1] - outward[0]), along[0] + a * (along[1] - along[0])};
+  const double out = outward[0] + o * (outward[1] - outward[0]), outside = along[0] + a * (along[1] - along[0]);
+  if (!is_skewed()) return {out, outside};
+  return {out, out * outside + (1 - out) * (along_axis[0] + a * (along_axis[1] - along_axis[0]))};
+}
+
+std::array<double, 2> MeshElement::coordinates(double out, double at) const {
+  const double first = is_skewed() ? out * along[0] + (1 - out) * along_axis[0] : along[0],
+               last = is_skewed() ? out * along[1] + (1 - out) * along_axis[1] : along[1];
+  const double o = (out - outward[0]) / (outward[1] - outward[0]), a = (at - first) / (last - first);
+  return outward_first ? std::array{o, a} : std::array{a, o};
 }
 
 SurfaceBreaks surface_breaks(const Subdivision& n, Spacing spacing) {
-  return {front_breaks(n.front, spacing), top_breaks(n.top, spacing)};
+  return {front_breaks(n.front, spacing), top_breaks(n.top, spacing), {}};
 }
 
 ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& n, SurfaceBreaks breaks)
@@ -100,21 +111,29 @@ ChannelMesh::ChannelMesh(const ChannelGeometry& geometry, const Subdivision& n, 
   const int layer_count = n.layers > 0 ? n.layers : layers_for(geometry, n);
   const auto layers = graded(layer_count, std::pow(2.0, layer_count));
   const auto axial = axial_breaks(geometry, n.axial);
-  add_block(Block::core, breaks_.front, breaks_.top);
-  add_block(Block::ring_front, ring, breaks_.front);
-  add_block(Block::ring_top, ring, breaks_.top);
-  add_block(Block::ring_rear, ring, breaks_.front);
-  add_block(Block::front, layers, breaks_.front);
-  add_block(Block::top, layers, breaks_.top);
-  add_block(Block::rear, layers, breaks_.front);
-  add_block(Block::downstream, axial, breaks_.front);
-  add_block(Block::upstream, axial, breaks_.front);
+  const auto add = [this](Block block, const std::vector<double>& outward, const std::vector<double>& along) {
+    add_block(block, outward, along, along);
+  };
+  add_block(Block::core, breaks_.front, breaks_.top, breaks_.axis.empty() ? breaks_.top : breaks_.axis);
+  add(Block::ring_front, ring, breaks_.front);
+  add(Block::ring_top, ring, breaks_.top);
+  add(Block::ring_rear, ring, breaks_.front);
+  add(Block::front, layers, breaks_.front);
+  add(Block::top, layers, breaks_.top);
+  add(Block::rear, layers, breaks_.front);
+  add(Block::downstream, axial, breaks_.front);
+  add(Block::upstream, axial, breaks_.front);
 }
 
-void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along) {
+void ChannelMesh::add_block(Block block, const std::vector<double>& outward, const std::vector<double>& along,
+                            const std::vector<double>& along_axis) {
   for (std::size_t i = 0; i + 1 < outward.size(); ++i) {
     for (std::size_t j = 0; j + 1 < along.size(); ++j) {
-      elements_.push_back({block, runs_outward_first(block), {outward[i], outward[i + 1]}, {along[j], along[j + 1]}});
+      elements_.push_back({block,
+                           runs_outward_first(block),
+                           {outward[i], outward[i + 1]},
+                           {along[j], along[j + 1]},
+                           {along_axis[j], along_axis[j + 1]}});
     }
   }
 }

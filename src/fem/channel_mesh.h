@@ -35,17 +35,24 @@ struct MeshElement {
   Block block;
   bool outward_first;  ///< whether the element's first coordinate runs outward (kept right-handed)
   std::array<double, 2> outward, along;
+  std::array<double, 2> along_axis;  ///< in the core, `along` where it meets the axis
 
   /// Point of the undeformed mesh for element coordinates in [0,1]^2.
   Point map(const ChannelGeometry&, double xi1, double xi2) const;
   /// The same point in the block's parameters (outward, along).
   std::array<double, 2> parameters(double xi1, double xi2) const;
+  /// Its coordinates at these parameters.
+  std::array<double, 2> coordinates(double outward, double along) const;
+  bool is_skewed() const { return along_axis != along; }
 };
 
 /// Between the elements along the surface of front and top, as parts of their angles, 0 and 1 included; those of the
 /// rear are the front's.
 struct SurfaceBreaks {
   std::vector<double> front, top;
+  /// Where the lines of the core that go on to those of the top meet the axis, if not at the same parts: elements that
+  /// are short at the surface need not be so in the middle of the cell.
+  std::vector<double> axis = {};
 };
 /// The breaks of a few intervals, or such as lie between them for another number of intervals.
 std::vector<double> like(const std::vector<double>& breaks, int intervals);
@@ -69,7 +76,8 @@ class ChannelMesh {
   NodeNumbers number_nodes(int degree) const;
 
  private:
-  void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along);
+  void add_block(Block, const std::vector<double>& outward, const std::vector<double>& along,
+                 const std::vector<double>& along_axis);
 
   ChannelGeometry geometry_;
   SurfaceBreaks breaks_;

@@ -61,6 +61,7 @@ RequestedElements requested_on_top(const Discretisation& space, const VectorXd& 
 
 SurfaceBreaks fitted_breaks(const Discretisation& space, const VectorXd& unknowns, double evenly) {
   SurfaceBreaks breaks = space.mesh().breaks();
+  if (breaks.axis.empty()) breaks.axis = breaks.top;
   breaks.top = requested_on_top(space, unknowns).moved(std::move(breaks.top), evenly);
   return breaks;
 }

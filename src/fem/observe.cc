@@ -55,6 +55,15 @@ void locate(const ChannelMesh& from, const MeshElement& self, const VectorXd& a,
   for (int f = 0; f < int(from.elements().size()); ++f) {
     const MeshElement& other = from.elements()[f];
     if (other.block != self.block) continue;
+    if (self.is_skewed() || other.is_skewed()) {
+      for (int k = 0; k < a.size() * a.size(); ++k) {
+        const int i = k % int(a.size()), j = k / int(a.size());
+        const auto [out, along] = self.parameters(a(i), a(j));
+        const auto [xi1, xi2] = other.coordinates(out, along);
+        if (inside(xi1) && inside(xi2)) visit(i, j, xi1, xi2, f);
+      }
+      continue;
+    }
     const VectorXd xi1 = coordinates_in(self, other, 0, a), xi2 = coordinates_in(self, other, 1, a);
     for (int j = 0; j < a.size(); ++j) {
       for (int i = 0; i < a.size(); ++i) {

@@ -45,6 +45,8 @@ struct Geometry {
   double margin_at_coarse_ends = small_margin;  ///< of the surface's stability, where a search gives up before
   bool ends_late_on_finer = false;              ///< so much later that a coarse end is reported as one
   bool knows_ends = false;                      ///< of bare solids (solve/branch_ends.h)
+  bool traces_ends = false;                     ///< where a way ends it is followed round its fold before its mesh is
+                                                ///< fitted: fits do not help there, and are dear
 
   std::vector<Rungs> rungs = {};   ///< coarse to fine
   NewtonOptions fine = {};         ///< on them

@@ -18,6 +18,7 @@ struct ResolvedState {
   std::shared_ptr<Discrete> discrete;
   BranchState branch;  ///< its parameter is the compliance relative to the problem's
   double residual = 0;
+  double turning = 0;    ///< of a `limit_point`: the compliance at which the branch turns
   bool gave_up = false;  ///< far from the requested cell, before the end was found exactly
 };
 

@@ -4,30 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "solve/fit_on_the_way.h"
+#include "solve/metered.h"
 #include "solve/settle.h"
 #include "solve/surface_stability.h"
 
 namespace rheocyte {
-
-/// While it lives, what a system works is counted, and the system gives up its work once it is to stop.
-class ResolvedBranch::Metered {
- public:
-  Metered(ResolvedBranch& branch, NonlinearSystem& system) : branch_(branch), system_(system), before_(system.work()) {
-    system_.obey(branch.limits_);
-  }
-  ~Metered() {
-    system_.obey({});
-    branch_.statistics_ += system_.work() - before_;
-  }
-  Metered(const Metered&) = delete;
-  Metered& operator=(const Metered&) = delete;
-
- private:
-  ResolvedBranch& branch_;
-  NonlinearSystem& system_;
-  WorkMeter before_;
-};
 
 ResolvedBranch::ResolvedBranch(const Problem& problem, MediaAt media, Geometry geometry, ProgressCallback report,
                                const WorkLimits& limits)
@@ -117,25 +98,28 @@ ResolvedState ResolvedBranch::start(const Resolution& resolution, const Continua
   return state;
 }
 
+WayPoint ResolvedBranch::go(ResolvedState& state, double compliance, const ContinuationOptions& options,
+                            const Accept& accept, bool pauses) {
+  Discrete& discrete = *state.discrete;
+  const Metered metered(*this, discrete.system());
+  Path path = stiffness_path(discrete.system(), media_);
+  path.end = compliance;
+  ContinuationOptions here = with(options, accept, discrete);
+  if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
+  take(continue_branch(path, here, state.branch), state);
+  return WayPoint{state.status, state.branch.parameter};
+}
+
 void ResolvedBranch::advance(ResolvedState& state, double compliance, const ContinuationOptions& options,
                              const Accept& accept, Fits fits) {
-  const auto go = [&](bool pauses) {
-    Discrete& discrete = *state.discrete;
-    const Metered metered(*this, discrete.system());
-    Path path = stiffness_path(discrete.system(), media_);
-    path.end = compliance;
-    ContinuationOptions here = with(options, accept, discrete);
-    if (pauses) here.pause = [&](const BranchState& found) { return discrete.is_worn(found.unknowns); };
-    take(continue_branch(path, here, state.branch), state);
-    return WayPoint{state.status, state.branch.parameter};
-  };
+  const auto go_on = [&](bool pauses) { return go(state, compliance, options, accept, pauses); };
   const auto fit_here = [&] { return fit(state, options.newton); };
-  if (fits == Fits::ever_again) return fit_on_the_way(compliance, go, fit_here);
+  if (fits == Fits::ever_again) return fit_on_the_way(compliance, go_on, fit_here);
   const auto is_worn = [&](const WayPoint& here) {
     return here.status == Status::converged && here.parameter < compliance;
   };
-  WayPoint here = go(true);
-  if (is_worn(here) && !state.discrete->is_fitted() && fit_here()) here = go(true);
+  WayPoint here = go_on(true);
+  if (is_worn(here) && !state.discrete->is_fitted() && fit_here()) here = go_on(true);
   if (is_worn(here)) state.status = Status::mesh_folded;
 }
 
@@ -191,8 +175,9 @@ ResolvedState ResolvedBranch::enter(ResolvedState& from, const Resolution& resol
                                     const ContinuationOptions& options, const NewtonOptions& across) {
   if (!from.discrete) return start(resolution, options, smooth());
   for (const double fraction : steps_back) {
-    // Where a mesh is worn its states are far from those of the next one.
+    // Where a mesh is worn its states are far from those of the next one, and another mesh turns elsewhere.
     if (from.status == Status::mesh_folded && fraction > std::ranges::min(steps_back)) continue;
+    if (from.status == Status::limit_point && fraction == 1) continue;
     const double farthest = fraction * from.branch.parameter;
     const auto before = std::find_if(trail_.rbegin(), trail_.rend(), [&](const ResolvedState& passed) {
       return passed.discrete->resolution() == from.discrete->resolution() && passed.branch.parameter <= farthest;
@@ -231,11 +216,11 @@ ResolvedState ResolvedBranch::follow(Search search) {
     const ContinuationOptions way_options =
         options(last ? geometry_.min_step_at_last : geometry_.min_step_before_refining);
     ResolvedState next = enter(state, way.resolution, way_options, geometry_.across);
-    if (next.status == Status::converged && next.branch.parameter < 1)
-      advance(next, 1, way_options, smooth(), way.fits);
+    if (next.status == Status::converged && next.branch.parameter < 1) go_on(next, way, way_options);
     const double before = is_guided ? 0 : state.branch.parameter;
-    const bool is_found = next.status == Status::converged || next.branch.tangent.size() > 0;
-    if (is_found && next.branch.parameter >= before) {
+    const bool turns = next.status == Status::limit_point;  // seen finer it may do so earlier
+    const bool is_found = next.status == Status::converged || turns || next.branch.tangent.size() > 0;
+    if (is_found && (next.branch.parameter >= before || turns)) {
       state = std::move(next);
     } else {
       if (is_guided && next.status != Status::stopped) state = {};
@@ -253,6 +238,8 @@ ResolvedState ResolvedBranch::follow(Search search) {
     state.gave_up = from_the_start || is_hopeless(geometry_, before, state.branch.parameter);
     if (state.gave_up || has_collapsed(state)) break;
   }
+  if (search != Search::quick && !state.gave_up && state.branch.parameter > 0 && !is_nearly_unstable(state))
+    look_beyond(state, options(geometry_.min_step_at_last));
   return state;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "solve/fit_on_the_way.h"
 #include "solve/geometry.h"
 #include "solve/ladder.h"
 #include "solve/path.h"
@@ -69,6 +70,15 @@ class ResolvedBranch {
   ResolvedState carried(const ResolvedState& from, const Resolution&, const NewtonOptions&);
   ResolvedState enter(ResolvedState& from, const Resolution&, const ContinuationOptions&, const NewtonOptions& across);
   void take(const ContinuationReport&, ResolvedState&);
+  /// Without fits; with pauses, until the mesh is worn.
+  WayPoint go(ResolvedState&, double compliance, const ContinuationOptions&, const Accept&, bool pauses);
+  /// From a state of a way towards the requested compliance.
+  void go_on(ResolvedState&, const CoarseWay&, const ContinuationOptions&);
+  /// Goes on by arc length from where a way has ended, round the fold if there is one (`limit_point`), or to the
+  /// requested compliance; the state is the last one before the fold.
+  void look_beyond(ResolvedState&, const ContinuationOptions&);
+  /// Until the branch turns, the mesh is worn or the requested compliance is passed; whether a state was gained.
+  bool trace(ResolvedState&, const ContinuationOptions&);
   /// Fits the mesh to the state; false if that does not help.
   bool fit(ResolvedState&, NewtonOptions);
   bool is_wrinkled(const ResolvedState&) const;

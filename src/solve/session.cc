@@ -14,11 +14,11 @@ namespace rheocyte {
 namespace {
 
 /// Settles the reason and says it in a sentence.
-void explain(const Problem& problem, const Geometry& geometry, bool gave_up, StationaryState& r) {
+void explain(const Problem& problem, const Geometry& geometry, const ResolvedState& last, StationaryState& r) {
   Outcome& outcome = r.outcome;
   const bool failed_on_the_way = !has_state(outcome.status) && outcome.status != Status::stopped;
   const double margin = outcome.reached > 0 ? r.stability_margin : margin_at_rest(problem);
-  const double least_margin = gave_up ? geometry.margin_at_coarse_ends : small_margin;
+  const double least_margin = last.gave_up ? geometry.margin_at_coarse_ends : small_margin;
   if (failed_on_the_way && margin < least_margin) {
     outcome.status = Status::surface_unstable;
   } else if (outcome.status == Status::iteration_limit && outcome.reached > 0) {
@@ -26,7 +26,8 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
   }
   outcome.status = judged(outcome.status, {r.stability_margin, r.estimated_error, problem.accuracy});
   // The branch that was not followed to its end on a fine mesh ends later than it was seen to.
-  const bool is_early = (gave_up && geometry.ends_late_on_finer) || (geometry.knows_ends && is_far_too_soft(problem));
+  const bool is_early =
+      (last.gave_up && geometry.ends_late_on_finer) || (geometry.knows_ends && is_far_too_soft(problem));
   const auto known_end = is_early && geometry.knows_ends ? min_shear_modulus(problem) : std::nullopt;
   outcome.message = explanation(outcome, {.deformation = r.shape.deformation,
                                           .deformation_floor = r.deformation_floor,
@@ -37,7 +38,8 @@ void explain(const Problem& problem, const Geometry& geometry, bool gave_up, Sta
                                           .weak_point = weak_point(problem, r.surface, least_margin),
                                           .can_bend = problem.offset == 0,
                                           .is_coarse = is_early,
-                                          .known_end = known_end.value_or(0) / problem.bulk.shear_modulus});
+                                          .known_end = known_end.value_or(0) / problem.bulk.shear_modulus,
+                                          .turning = last.turning > 0 ? 1 / last.turning : 0});
 }
 
 /// To the end of the branch, which is known to lie before the problem.
@@ -131,7 +133,7 @@ StationaryState Session::solve_in(const Geometry& geometry, const Problem& probl
       result.residual = state.residual;
       result.outcome.reached = state.branch.parameter;
     }
-    explain(problem, geometry, state.gave_up, result);
+    explain(problem, geometry, state, result);
     if (result.outcome.status == Status::converged && !lines.empty()) {
       follow_lines(geometry, problem, state, lines);
     } else {

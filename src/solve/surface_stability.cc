@@ -100,6 +100,8 @@ bool is_wrinkled(const Problem& problem, const Discretisation& space, const Vect
   constexpr int max_sign_changes = 3;  // a rear dent makes one, a hollow flank two
   const double margin = stability_margin(problem, space, unknowns);
   if (margin < 0) return true;
+  // Ripples beside a sharp rim are states of a surface that resists bending; it ends at folds of its branch.
+  if (problem.cortex.bending > 0) return false;
   // Farther from the limit, changes of curvature are faint errors of discretisation on nearly straight flanks.
   if (surface_kind(problem) != SurfaceKind::held && margin > small_margin) return false;
   return surface_smoothness(contour(space, unknowns)).curvature_sign_changes > max_sign_changes;

@@ -36,7 +36,8 @@ bool have_same_elements(const Problem& a, const Problem& b, const Resolution& re
 /// The rim of a dented cell is sharp, wanders along the surface as the cell softens, and is seen by no coarse mesh.
 /// With one ring of elements between core and surface the bulk below it is not resolved.
 void look_for_rims(Geometry& tube) {
-  tube.ways = {{{coarse, 4}}, {{coarse, 6}}, {{dense, 6}}, {{dense, 8}}};
+  tube.ways = {{{coarse, 4}, false, Fits::once}, {{coarse, 6}, false, Fits::once}, {{dense, 6}}, {{dense, 8}}};
+  tube.traces_ends = true;
   tube.along.iteration_limit = 8;
   tube.min_step_before_refining = 3e-3;
   tube.gain_of_finer = never_hopeless;

@@ -145,9 +145,15 @@ std::string explanation(const Outcome& outcome, const LastState& last) {
         return unstable_surface(fmt::format("{} (the last state kept has {})", in_wanted_moduli(last.known_end), state),
                                 last);
       return unstable_surface(where, last);
+    case Status::limit_point:
+      return fmt::format(
+          "The branch of stationary shapes turns back at {} (limit point; the last state before it has {})"
+          ": softer cells deform without limit; raise the moduli above that, or lower flow rate or "
+          "viscosity.",
+          in_wanted_moduli(last.turning), where);
     case Status::branch_ended:
-      return "The branch of stationary shapes ends at " + where +
-             "; softer cells elongate without limit: raise the moduli above that, or lower flow rate or viscosity.";
+      return "The branch of stationary shapes was not followed beyond " + where +
+             ", where no next state was found; raise the moduli above that, or lower flow rate or viscosity.";
     case Status::mesh_folded: return "The mesh of the liquid folds beyond " + where + "; raise the moduli above that.";
     default: return fmt::format("The solver stopped ({}) at ", name(outcome.status)) + where + ".";
   }
@@ -169,12 +175,13 @@ const char* name(Status status) {
     case Status::no_equilibrium: return "no-equilibrium";
     case Status::covered: return "covered";
     case Status::dented: return "dented";
+    case Status::limit_point: return "limit-point";
   }
   return "unknown";
 }
 
 std::optional<Status> status_named(std::string_view wanted) {
-  for (Status status = Status::not_started; status <= Status::dented; status = Status(int(status) + 1))
+  for (Status status = Status::not_started; status <= Status::limit_point; status = Status(int(status) + 1))
     if (wanted == name(status)) return status;
   return std::nullopt;
 }

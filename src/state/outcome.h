@@ -16,7 +16,7 @@ enum class Status {
   iteration_limit,       ///< Newton did not converge although the continuation step was reduced to its least value
   mesh_folded,           ///< the liquid's mesh overlaps itself at every step size
   surface_unstable,      ///< the surface wrinkles, or its cortex collapses: the branch ends before the requested state
-  branch_ended,          ///< the tangent turns back: no state on this branch beyond
+  branch_ended,          ///< no next state was found, for whatever reason
   singular_matrix,       ///< the factorisation failed
   not_finite,            ///< NaN or infinity in residual or state
   accuracy_not_reached,  ///< converged on every mesh that was tried, but the error estimate stays above the requested
@@ -26,6 +26,7 @@ enum class Status {
   no_equilibrium,        ///< the cell drifts on to the wall
   covered,               ///< of a table's branch: it leaves the table's ranges
   dented,                ///< of a table's branch: the dent at the rear is as deep as the table admits
+  limit_point,           ///< the branch turns back: it was followed round the fold, beyond which it has no state
 };
 
 /// Whether there is a state, be it less accurate than requested.
@@ -84,6 +85,7 @@ struct LastState {
   bool can_bend = true;                      ///< not off the axis of a duct
   bool is_coarse = false;                    ///< the end was seen on coarse meshes alone
   double known_end = 0;                      ///< least modulus over the requested one, where it was known beforehand
+  double turning = 0;                        ///< the same at the fold of a branch that turns
 };
 
 /// One sentence for the user: what happened, where, what to try.

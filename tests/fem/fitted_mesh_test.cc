@@ -137,6 +137,7 @@ TEST(FittedMesh, ElementsOfASphereAreEven) {
   const SurfaceBreaks breaks = fitted_breaks(space, system.sphere());
   for (int k = 0; k <= 8; ++k) EXPECT_NEAR(breaks.top[k], k / 8.0, 1e-3);
   EXPECT_EQ(breaks.front, mesh.breaks().front);
+  EXPECT_EQ(breaks.axis, mesh.breaks().top);  // in the middle of the cell elements stay as wide as they were
 }
 
 }  // namespace

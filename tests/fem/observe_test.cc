@@ -118,5 +118,31 @@ TEST(Transfer, TheShapeDoesNotChangeOnOtherMeshes) {
   EXPECT_EQ(moved(other.space.cell_velocity()), state(channel.space.cell_velocity()));
 }
 
+TEST(Transfer, DisplacementsAreThoseOfTheSameMaterialWhereTheCoreIsCutOtherwiseAtTheAxis) {
+  // A cubic displacement of the undeformed places, between meshes whose lines through the core lean: up to what
+  // elements of degree 8 leave of it.
+  const ChannelGeometry geometry(0.6);
+  const std::vector<double> even{0, 0.25, 0.5, 0.75, 1}, rim{0, 0.4, 0.7, 0.85, 1};
+  const ChannelMesh plain(geometry, {}, {{0, 0.5, 1}, even, {}}), leaning(geometry, {}, {{0, 0.5, 1}, rim, even});
+  const Discretisation from(plain, 8, {}), to(leaning, 8, {});
+  const auto displaced = [](const Discretisation& space) {
+    VectorXd state = VectorXd::Zero(space.unknowns());
+    for (int node = 0; node < space.nodes().count; ++node) {
+      const Point X = space.node_points()[node];
+      const Point u{X(0) * X(0) - X(1) * X(1) * X(0), X(1) * X(0)};
+      for (int c = 0; c < 2; ++c)
+        if (const int unknown = space.displacement(node, c); unknown >= 0) state(unknown) = u(c);
+    }
+    return state;
+  };
+  for (const auto& [a, b] : {std::pair{&from, &to}, {&to, &from}}) {
+    const VectorXd moved = transfer(*a, displaced(*a), *b), wanted = displaced(*b);
+    for (int i = 0; i < 2 * b->nodes().count; ++i)
+      if (const int unknown = b->displacement(i / 2, i % 2); unknown >= 0) {
+        EXPECT_NEAR(moved(unknown), wanted(unknown), 1e-6);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace rheocyte::observe_test

@@ -1,4 +1,4 @@
-#include "arclength.h"
+#include "solve/arclength.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "fem/observe.h"
 #include "shape/measures.h"
+#include "solve/stationary.h"
 #include "solve/tube.h"
 
 namespace rheocyte::arclength_test {
@@ -53,6 +54,24 @@ TEST(Arclength, ItGoesRoundTheFoldOfABranch) {
   }
 }
 
+TEST(Arclength, TheParameterOfAFoldIsThatOfAParabola) {
+  // c = 0.9 - 2 (a - 0.3)^2 of the arc a, from states at 0.1 and 0.35; and on the branch, where each state of a trace
+  // lies before it.
+  ArcReport parabola;
+  for (const double arc : {0.1, 0.35}) {
+    parabola.arcs.push_back(arc);
+    parabola.slopes.push_back(-4 * (arc - 0.3));
+    parabola.states.push_back({0.9 - 2 * std::pow(arc - 0.3, 2), {}, {}, 0});
+  }
+  EXPECT_NEAR(turning_parameter(parabola, 0), 0.9, 1e-14);
+  Folded folded;
+  const ArcReport report = folded.trace(14);
+  ASSERT_EQ(report.folds.size(), 1u);
+  const double turning = turning_parameter(report, report.folds[0]);
+  for (const BranchState& state : report.states) EXPECT_LT(state.parameter, turning);
+  EXPECT_NEAR(turning, 0.892, 1e-3);
+}
+
 TEST(Arclength, AwayFromFoldsItFindsTheStatesOfTheParameter) {
   // The same branch as steps in the compliance.
   Folded folded;
@@ -65,13 +84,25 @@ TEST(Arclength, AwayFromFoldsItFindsTheStatesOfTheParameter) {
   EXPECT_LT((x - last.unknowns).norm() / x.norm(), 1e-8);
 }
 
+TEST(Arclength, ACellBeyondTheFoldIsToldThatItsBranchTurns) {
+  // Of the moduli at which it does: those of the fold, with the last state just before it.
+  Folded folded;
+  Problem softer = folded.problem;
+  softer.bulk.shear_modulus *= 1.64 / 1.5;
+  const StationaryState state = solve_stationary(softer);
+  EXPECT_EQ(state.outcome.status, Status::limit_point) << state.outcome.message;
+  EXPECT_NEAR(state.outcome.reached, 0.892 * 1.64 / 1.5, 0.01);
+  EXPECT_NE(state.outcome.message.find("turns back at 1.02"), std::string::npos) << state.outcome.message;
+  EXPECT_NEAR(state.shape.deformation, 0.112, 0.004);
+}
+
 TEST(Arclength, ItEndsWhereItIsTold) {
   // The observer's refusal ends the trace with success; the state that it saw is kept.
   Folded folded;
   const ContinuationReport first = start_branch(stiffness_path(folded.discrete.system(), folded.problem), {});
   ArcOptions options;
   int seen = 0;
-  options.go_on = [&](const Discretisation&, const BranchState&) { return ++seen < 2; };
+  options.go_on = [&](const BranchState&) { return ++seen < 2; };
   const ArcReport report = trace_arc(stiffness_path(folded.discrete.system(), folded.problem), options, first.last);
   EXPECT_EQ(report.status, Status::converged);
   EXPECT_EQ(report.states.size(), 3u);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array statuses = {Status::not_started,     Status::converged,        Status::iteration_limit,
                                  Status::mesh_folded,     Status::surface_unstable, Status::branch_ended,
                                  Status::singular_matrix, Status::not_finite,       Status::accuracy_not_reached,
-                                 Status::stopped};
+                                 Status::stopped,         Status::limit_point};
 
 TEST(Outcome, ItStartsAsNoSuccess) {
   // Success has to be said, never assumed.
@@ -100,6 +100,16 @@ TEST(Outcome, TheEndOfTheBranchIsToldInModuliAndDeformation) {
     EXPECT_NE(sentence.find("0.0512"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("raise the moduli"), std::string::npos) << sentence;
   }
+}
+
+TEST(Outcome, ALimitPointIsToldByTheModuliAtWhichTheBranchTurns) {
+  // The last state before it is another one; an end without evidence of a fold is not called one.
+  const std::string turns = explanation({Status::limit_point, "", 0.4}, {.deformation = 0.0512, .turning = 2.45});
+  EXPECT_NE(turns.find("turns back at 2.45 times the requested moduli"), std::string::npos) << turns;
+  EXPECT_NE(turns.find("2.5 times the requested moduli (deformation 0.0512)"), std::string::npos) << turns;
+  const std::string ends = explanation({Status::branch_ended, "", 0.4}, {.deformation = 0.0512});
+  EXPECT_EQ(ends.find("turns"), std::string::npos) << ends;
+  EXPECT_NE(ends.find("not followed beyond"), std::string::npos) << ends;
 }
 
 TEST(Outcome, AnUnstableSurfaceIsOfferedWhatCouldHoldIt) {

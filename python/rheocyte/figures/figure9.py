@@ -15,7 +15,7 @@ FIRST_CORTEX = {0.763: 4.0}  # with less cortex there is no smooth shape at all
 IMAGE_CELL = (2.3, 0.5)  # what the paper reads from its image: kPa, mN/m
 LAW, ACCURACY = "neo-hookean", 1e-3
 BENDING_KBT = 3e4  # keeps the cortex from wrinkling where it is compressed
-ENDS = ("surface-unstable", "branch-ended", "mesh-folded", "accuracy-not-reached")  # a cell that is too soft
+ENDS = ("surface-unstable", "limit-point", "branch-ended", "mesh-folded", "accuracy-not-reached")  # a cell that is too soft
 COLUMNS = ["young_modulus_kPa", "cortex_modulus_mN_per_m", "tension_mN_per_m", "status", "area_um2", "deformation",
            "moment_ratio"]
 

@@ -12,7 +12,7 @@ ACCURACY = 1e-2
 CONDITIONS = {"channel.section": "square", "channel.width_um": WIDTH_UM, "flow.rate_ul_per_s": 0.04,
               "flow.density_kg_per_m3": 0, "flow.law": "power-law", "flow.consistency_Pa_sn": 0.4057,
               "flow.exponent": 0.6039, "numerics.accuracy": ACCURACY}
-ENDS = ("surface-unstable", "branch-ended", "mesh-folded", "accuracy-not-reached")  # a cell that is too soft there
+ENDS = ("surface-unstable", "limit-point", "branch-ended", "mesh-folded", "accuracy-not-reached")  # a cell that is too soft there
 COLUMNS = ["deformation", "inertia_ratio", "mode_2", "mode_3", "cell_velocity_m_per_s", "drift_velocity_m_per_s",
            "rotation_rate_per_s"]
 DRAWN = [("inertia_ratio", "inertia ratio"), ("mode_2", "$c_2$"), ("mode_3", "$c_3$"), ("deformation", "deformation")]
