@@ -25,7 +25,7 @@ struct MeasuringOptions {
   std::string temperature;             ///< degC, "feature", "metadata", or empty: the feature if there is one
   std::string temperature_if_missing;  ///< degC where none is recorded; empty: such recordings are refused
   GateOptions gates;
-  bool lifts_shape_gates = false;  ///< Gates::without_shapes
+  bool lifts_shape_gates = false;    ///< Gates::without_shapes
   std::optional<double> patience_s;  ///< not given: default_patience_s
 };
 

@@ -101,7 +101,9 @@ bool PolygonGate::holds(double x, double y) const {
   return is_inside;
 }
 
-bool PolygonGate::is_over(bool (*is_such)(std::string_view)) const { return is_such(x_.feature) || is_such(y_.feature); }
+bool PolygonGate::is_over(bool (*is_such)(std::string_view)) const {
+  return is_such(x_.feature) || is_such(y_.feature);
+}
 
 std::optional<PolygonGate::Range> PolygonGate::range_of_other(bool (*is_such)(std::string_view)) const {
   if (is_inverted_ || is_such(x_.feature) == is_such(y_.feature)) return {};

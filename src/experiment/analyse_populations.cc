@@ -37,7 +37,9 @@ class PopulationAnalysis {
   void add(const Place& place, const PopulationEvents& events, const Watch& watch);
   /// Whether the recording that was added last must be compared with its events without gates on the shape.
   bool needs_all_shapes() const { return model_->lacks_shape_gates() && gates_limit_shapes_; }
-  void compare(const PopulationEvents& without_shape_gates) { model_->compare(without_shape_gates, recordings_.back()); }
+  void compare(const PopulationEvents& without_shape_gates) {
+    model_->compare(without_shape_gates, recordings_.back());
+  }
   /// Of all that were added.
   PopulationReport report();
 

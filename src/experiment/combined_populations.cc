@@ -264,8 +264,7 @@ void CombinedPopulations::fit(const PopulationEvents& events, RecordingReport& r
   r.fitted_events = fit.events;
   count_beyond(combined.found, r);
   if (combined.found.kept_fraction < least_kept_fraction) refuse_tail(r, combined.found.kept_fraction);
-  r.failure =
-      why_not_in_table(combined.found, moduli.table(), scale_factors(moduli.simulated(), events.flow()).length);
+  r.failure = why_not_in_table(combined.found, moduli.table(), scale_factors(moduli.simulated(), events.flow()).length);
   if (!r.failure.empty()) return;
   const CellsBeyond& beyond = combined.found.beyond;
   refuse_most_beyond(PopulationQuantity::stiffness, bound_of_median(beyond.log_stiffness_of_last, beyond.all), r);

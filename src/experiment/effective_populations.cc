@@ -119,8 +119,7 @@ void EffectivePopulations::compare(const PopulationEvents& without_shape_gates, 
   if (std::abs(std::log(all.effective_kPa.value / r.effective->effective_kPa.value)) < worth_a_word) return;
   const auto add = [&](PopulationQuantity quantity, const Median& selected, const Median& of_all) {
     for (QuantityEstimate& e : r.quantities)
-      if (e.quantity == quantity)
-        e.common_error = std::hypot(e.common_error, std::log(of_all.value / selected.value));
+      if (e.quantity == quantity) e.common_error = std::hypot(e.common_error, std::log(of_all.value / selected.value));
   };
   add(PopulationQuantity::effective_modulus, r.effective->effective_kPa, all.effective_kPa);
   add(PopulationQuantity::axial_tension, r.effective->axial_tension_Pa, all.axial_tension_Pa);

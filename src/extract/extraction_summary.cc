@@ -96,9 +96,10 @@ std::string Extraction::gates_on_shapes(const ShapeVerdict& shapes) const {
   const std::string gates = fmt::format("the gates ({}) select cells by their shape.", events_.gates().description());
   if (!std::isfinite(shapes.without_shape_gates_kPa))
     return gates + " The recommended modulus is that of the selected cells: without these gates there is none.";
-  return fmt::format("{} Without gates on the shape the recommended modulus is {:.4g} kPa; the difference is part of "
-                     "the systematic error.",
-                     gates, shapes.without_shape_gates_kPa);
+  return fmt::format(
+      "{} Without gates on the shape the recommended modulus is {:.4g} kPa; the difference is part of "
+      "the systematic error.",
+      gates, shapes.without_shape_gates_kPa);
 }
 
 void Extraction::add_effective_cell(ExtractSummary& s) const {

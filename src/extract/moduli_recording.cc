@@ -163,9 +163,9 @@ class Fits {
 
  private:
   std::string liquid_text() const {
-    return is_changed_ ? fmt::format(", its states changed to a liquid with the exponent {:.4g}",
-                                     table_.simulated.exponent)
-                       : "";
+    return is_changed_
+               ? fmt::format(", its states changed to a liquid with the exponent {:.4g}", table_.simulated.exponent)
+               : "";
   }
 
   std::string way_text(const ModuliOptions& options) const {

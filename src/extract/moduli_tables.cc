@@ -52,7 +52,8 @@ ModuliTables::ModuliTables(const ModuliOptions& options)
 
 const ModuliTable& ModuliTables::seen_in(Section section, double flow_exponent, std::string_view made_of) const {
   if (section != Section::tube || !computed_.between.is_elongated() ||
-      are_cells_of(computed_.content.spec.base, made_of)) return computed_;
+      are_cells_of(computed_.content.spec.base, made_of))
+    return computed_;
   const std::scoped_lock lock(mutex_);
   const ProportionedCells* const own = tables_.proportioned(computed_.simulated.exponent).in_liquid;
   const ProportionedCells* const other = tables_.proportioned(flow_exponent).in_liquid;
@@ -62,7 +63,8 @@ const ModuliTable& ModuliTables::seen_in(Section section, double flow_exponent, 
   if (!can_be_changed) return computed_;
   std::unique_ptr<const ModuliTable>& changed = changed_[other];
   if (!changed)
-    changed = std::make_unique<const ModuliTable>(LiquidChange(own->table(), other->table()).changed(computed_.content));
+    changed =
+        std::make_unique<const ModuliTable>(LiquidChange(own->table(), other->table()).changed(computed_.content));
   return *changed;
 }
 

@@ -139,7 +139,7 @@ ShapeVector ProportionedCells::change_by_section(const CellCoordinates& cell, co
 
 ProportionedCells::Added ProportionedCells::added(const CellCoordinates& cell, const Sight& sight,
                                                   double pixel_size_um) const {
-  const ShapeVector in_tube = this->in_tube(held_inside(cell), sight.flow);
+  const ShapeVector in_tube = this->in_tube(between_.nearest_inside(cell), sight.flow);
   ShapeErrors by_square = added_by_section(cell, in_tube, sight);
   by_square.covariance *= sight.error_factor * sight.error_factor;
   if (!(pixel_size_um > 0)) return {by_square, {}};
@@ -166,19 +166,6 @@ ShapeVector ProportionedCells::mean_of_pixels(const ShapeVector& smooth, double 
   by_pixels.bias.head<3>() = mean;
   add_lost_corners(smooth(int(ShapeFeature::deformation)) - of_outline.deformation, by_pixels);
   return by_pixels.bias;
-}
-
-CellCoordinates ProportionedCells::held_inside(CellCoordinates cell) const {
-  constexpr int halvings = 30;
-  cell = cell.cwiseMax(between_.box().least).cwiseMin(between_.box().greatest);
-  if (between_.is_inside(cell)) return cell;
-  double inside = between_.box().least(x_progress), beyond = cell(x_progress);
-  for (int i = 0; i < halvings; ++i) {
-    cell(x_progress) = (inside + beyond) / 2;
-    (between_.is_inside(cell) ? inside : beyond) = cell(x_progress);
-  }
-  cell(x_progress) = inside;
-  return cell;
 }
 
 std::vector<BulkCortexFit::Candidate> ProportionedCells::from_other_stiffnesses(const MeasuredShape& shape,
@@ -242,8 +229,8 @@ ProportionedEstimate ProportionedCells::estimate(SeenFigure seen, const Sight& s
   found.is_ambiguous = has_others_alike(shape, sight.flow, tension, found.by_scatter.cell);
   if (pixel_size_um > 0) found.of_picture = with_errors(of_picture);
   if (found.by_scatter.status == ModuliStatus::outside_table) {
-    found.softest_kPa =
-        effective_modulus_kPa(held_inside(found.by_scatter.cell)) * scale_factors(simulated_, sight.flow).modulus;
+    found.softest_kPa = effective_modulus_kPa(between_.nearest_inside(found.by_scatter.cell)) *
+                        scale_factors(simulated_, sight.flow).modulus;
   }
   return found;
 }

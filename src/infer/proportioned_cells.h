@@ -70,8 +70,6 @@ class ProportionedCells {
   };
   Added added(const CellCoordinates& cell, const Sight& sight, double pixel_size_um) const;
   ShapeErrors added_by_section(const CellCoordinates& cell, const ShapeVector& in_tube, const Sight& sight) const;
-  /// The cell, or the last one of the table on the way there from a stiffer one.
-  CellCoordinates held_inside(CellCoordinates cell) const;
   /// Where fits from cells of other stiffness end, from the same size and under the same tension.
   std::vector<BulkCortexFit::Candidate> from_other_stiffnesses(const MeasuredShape& shape, const ChannelFlow& flow,
                                                                const AxialTension& tension,

@@ -91,8 +91,9 @@ TEST_F(PopulationCommand, GatesOnTheShapeAreAnErrorOfTheEffectiveModulus) {
   write_file(folder_.path() / "cortex.toml", cells_with_cortex(2, 10));
   synth("control.rtdc", {"recording.cells=300"}, "cortex.toml");
   const auto analysed = [&](const std::vector<std::string>& gates) {
-    std::vector<std::string> words{"population", "--model", "effective", "--section", "tube", "--condition",
-                                   "control=control.rtdc", "--no-picture"};
+    std::vector<std::string> words{
+        "population",           "--model",     "effective", "--section", "tube", "--condition",
+        "control=control.rtdc", "--no-picture"};
     words.insert(words.end(), gates.begin(), gates.end());
     const Ended ended = call(words);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

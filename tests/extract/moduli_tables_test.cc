@@ -32,7 +32,8 @@ TEST(ModuliTables, TheLawOfTheSquareSectionContainsTheLiquid) {
 TEST(ModuliTables, VirtualCellsOfTheTableAreInItsOwnLiquid) {
   const ModuliTables tables{ModuliOptions{}};
   const Case& base = tables.computed().content.spec.base;
-  EXPECT_EQ(&tables.seen_in(Section::tube, 0.6548, cells_in_words(model_text(base), base.channel.section)), &tables.computed());
+  EXPECT_EQ(&tables.seen_in(Section::tube, 0.6548, cells_in_words(model_text(base), base.channel.section)),
+            &tables.computed());
 }
 
 }  // namespace

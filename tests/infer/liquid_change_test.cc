@@ -86,14 +86,16 @@ double found_over_true(const CombinedTable& table, const PowerLaw& liquid, const
   MeasuredShape shape{ShapeVector::Zero(), {}};
   shape.features(int(ShapeFeature::area_um2)) = std::log(state.area_um2);
   shape.features(int(ShapeFeature::deformation)) = state.deformation;
-  for (int k = 0; k < int(state.modes.size()); ++k) shape.features(feature_of_mode(2 + k)) = state.modes[std::size_t(k)];
+  for (int k = 0; k < int(state.modes.size()); ++k)
+    shape.features(feature_of_mode(2 + k)) = state.modes[std::size_t(k)];
   shape.errors.covariance = 1e-7 * decltype(shape.errors.covariance)::Identity();
   const double tension_Pa = 1e3 * state.axial_ratio * state.stiffness_kPa;
   const ModuliEstimate found = fit.fit(shape, flow, {tension_Pa, 0});
   const CellsAtRest at_rest = fit.at_rest().scaled(scale_factors(fit.simulated(), flow));
   return found.effective_modulus_kPa /
-         (state.stiffness_kPa * effective_modulus_over_stiffness<double>(at_rest, {std::log(5.9), std::log(state.stiffness_kPa),
-                                                                         state.fraction, state.tension_ratio}));
+         (state.stiffness_kPa *
+          effective_modulus_over_stiffness<double>(
+              at_rest, {std::log(5.9), std::log(state.stiffness_kPa), state.fraction, state.tension_ratio}));
 }
 
 TEST(LiquidChange, CellsOfOtherProportionsHaveTheEffectiveModulusOfDirectStates) {
