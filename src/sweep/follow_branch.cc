@@ -209,7 +209,7 @@ class BranchSampler {
   std::optional<BranchEnd> end_at(const BranchNode& node) const {
     for (const Limit& limit : limits())
       if (limit.is_passed(node.at(limit.measure))) return end_of(limit.end);
-    if (log_progress_slope(node) > turning) return end_of(Status::branch_ended);
+    if (log_progress_slope(node) > turning) return end_of(Status::limit_point);
     return std::nullopt;
   }
 

@@ -18,7 +18,8 @@ namespace {
 std::string reason(Status status) {
   switch (status) {
     case Status::surface_unstable: return "the surface loses its stability";
-    case Status::branch_ended: return "the branch turns back: softer cells elongate without limit";
+    case Status::limit_point: return "the branch turns back: softer cells elongate without limit";
+    case Status::branch_ended: return "no next state was found";
     case Status::accuracy_not_reached: return "the next state is not within the accuracy on the finest mesh";
     case Status::mesh_folded: return "the mesh of the liquid folds";
     case Status::stopped: return "stopped by a signal";

@@ -46,7 +46,9 @@ struct BranchEnd {
   Status status = Status::not_started;
   std::string message;  ///< one sentence
   /// Whether the cell has no state beyond; otherwise the table or the numerics end there.
-  bool is_physical() const { return status == Status::surface_unstable || status == Status::branch_ended; }
+  bool is_physical() const {
+    return status == Status::surface_unstable || status == Status::limit_point || status == Status::branch_ended;
+  }
 };
 
 /// The end with its sentence.

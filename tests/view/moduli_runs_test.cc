@@ -70,8 +70,14 @@ TEST_F(ModuliOfRecordings, RecommendWithinGatesWhatExtractRecommendsWithTheSame)
       column(folder_ / "want.rtdc", Recording(folder_ / "want.rtdc").metadata().text("user:rheocyte state").value());
   for (std::size_t event = 0; event < states.size(); ++event)
     if (states[event] != double(ModulusState::gated)) within.push_back(event);
-  EXPECT_EQ(recommended_in(parse_sound_json(asked({{"gate", within}}).body)["summary"]), recommended_json(summary))
-      << "gates for which the command has no option go by the numbers of their events";
+  // Gates for which the command has no option go by the numbers of their events. Which of them are on the shape is
+  // unknown then: that part of the error, which is stated in the text, is not there.
+  Json by_numbers = recommended_in(parse_sound_json(asked({{"gate", within}}).body)["summary"]);
+  Json by_settings = recommended_json(summary);
+  EXPECT_LE(by_numbers["young_modulus_median_kPa_common_error"], by_settings["young_modulus_median_kPa_common_error"]);
+  for (Json* const recommended : {&by_numbers, &by_settings})
+    for (const char* const name : {"text", "young_modulus_median_kPa_common_error"}) recommended->erase(name);
+  EXPECT_EQ(by_numbers, by_settings);
   EXPECT_EQ(asked({{"min", {"nonsense=1"}}}).status, 400);
   EXPECT_EQ(asked({{"polygon", {"/etc/passwd.poly"}}}).status, 400);
 }
