@@ -8,9 +8,12 @@
 #include <string>
 
 namespace rheocyte {
+namespace {
 
-std::string formatted_inside(fmt::string_view text, fmt::format_args arguments) {
+/// Never called: it brings the functions of fmt into the library.
+[[gnu::used]] std::string formatted_inside(fmt::string_view text, fmt::format_args arguments) {
   return fmt::vformat(text, arguments);
 }
 
+}  // namespace
 }  // namespace rheocyte
