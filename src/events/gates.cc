@@ -77,13 +77,15 @@ bool Gates::limit_shapes() const {
 Gates Gates::without_shapes() const {
   Gates others = *this;
   std::erase_if(others.limits_, [](const Limit& limit) { return is_of_shape(limit.feature); });
-  std::erase_if(others.polygons_, [](const PolygonGate& polygon) { return polygon.is_over(is_of_shape); });
-  for (const auto& polygon : polygons_)
-    if (polygon.is_over(is_of_shape))
-      if (const auto range = polygon.range_of_other(is_of_shape)) {
-        Limit& limit = others.limit_of(range->feature);
-        limit.min = std::max(limit.min, range->min), limit.max = std::min(limit.max, range->max);
-      }
+  others.polygons_.clear();
+  for (const auto& polygon : polygons_) {
+    if (!polygon.is_over(is_of_shape)) {
+      others.polygons_.push_back(polygon);
+    } else if (const auto range = polygon.range_of_other(is_of_shape)) {
+      Limit& limit = others.limit_of(range->feature);
+      limit.min = std::max(limit.min, range->min), limit.max = std::min(limit.max, range->max);
+    }
+  }
   return others;
 }
 

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "solve/arclength.h"
-#include "solve/fit_on_the_way.h"
 #include "solve/metered.h"
 #include "solve/resolved_branch.h"
 

@@ -1,4 +1,5 @@
 // `rheocyte synth`: a spec becomes a recording that the other commands take, or one sentence.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,11 +71,16 @@ TEST_F(Synth, SaysWhatItMadeAndWhatItLeftOut) {
   EXPECT_NE(ended.err.find("of 100 cells are left out: too soft."), std::string::npos) << ended.err;
 }
 
+/// So many cells of 1.2 kPa, with a spread of the modulus (kPa).
+std::string solids_in_cellcarrier(int cells, double modulus_sd_kPa) {
+  return fmt::format(
+      "[recording]\ncells = {}\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\nmedium = \"CellCarrier\"\n"
+      "[cell]\nradius_um = {{mean = 6.2, sd = 0.4}}\nbulk.young_modulus_kPa = {{mean = 1.2, sd = {}}}\n",
+      cells, modulus_sd_kPa);
+}
+
 TEST_F(Synth, WithoutATableModuliComeBackByTheTableOfTheirShapes) {
-  test::write_file(folder_ / "default.toml",
-                   "[recording]\ncells = 300\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
-                   "medium = \"CellCarrier\"\n[cell]\nradius_um = {mean = 6.2, sd = 0.4}\n"
-                   "bulk.young_modulus_kPa = {mean = 1.2, sd = 0.15}\n");
+  test::write_file(folder_ / "default.toml", solids_in_cellcarrier(300, 0.15));
   for (const std::string table : {"", "LE-2D-MC049-26"}) {
     std::vector<std::string> command{"synth", path("default.toml"), "-o", path("v.rtdc"), "--force"}, section;
     if (!table.empty()) {
@@ -115,10 +121,7 @@ struct RecommendedRatio {
 };
 
 TEST_F(Synth, GatesOnTheShapeAreAnErrorOfTheRecommendedModulus) {
-  test::write_file(folder_ / "cells.toml",
-                   "[recording]\ncells = 400\n[channel]\nwidth_um = 20\n[flow]\nrate_ul_per_s = 0.04\n"
-                   "medium = \"CellCarrier\"\n[cell]\nradius_um = {mean = 6.2, sd = 0.4}\n"
-                   "bulk.young_modulus_kPa = {mean = 1.2, sd = 0.3}\n");
+  test::write_file(folder_ / "cells.toml", solids_in_cellcarrier(400, 0.3));
   ASSERT_EQ(run({"synth", path("cells.toml"), "-o", path("v.rtdc")}).exit_code, 0);
   const auto recommended = [&](const std::vector<std::string>& gates) {
     std::vector<std::string> command{"extract", path("v.rtdc"), "-o", path("out")};

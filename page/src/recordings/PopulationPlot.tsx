@@ -16,7 +16,7 @@ import { quantiles } from './statistics';
 import { useSize } from './use_size';
 import { valuesAlong, violinCells, violinOf, type Violin } from './violins';
 
-const slots = { least: 24, greatest: 150 };
+const slots = { minimum: 24, maximum: 150 };
 /** For the name of one condition. */
 const longestName = 120;
 /** Of the picture, by the height of the window. */
@@ -236,9 +236,9 @@ function inTwo(name: string): string[] {
 }
 
 /** Slots in which the names of the conditions are whole in two lines, unless these are long. */
-const leastSlot = (entries: Entry[]) =>
+const minimumSlot = (entries: Entry[]) =>
   Math.max(
-    slots.least,
+    slots.minimum,
     ...runsOf(entries).map(({ condition, count }) => {
       const longest = Math.max(...inTwo(condition).map((line) => line.length));
       return Math.min(longestName, letter * (longest + 1) + 6) / count;
@@ -248,10 +248,10 @@ const leastSlot = (entries: Entry[]) =>
 export function PopulationPlot({ feature, scale, fit }: { feature: string; scale: ScaleKind; fit: NumberFit | undefined }) {
   const { entries, span } = useEntries(feature, scale, fit);
   const { element, width } = useSize<HTMLDivElement>();
-  const least = leastSlot(entries);
-  const slot = Math.max(least, Math.min(slots.greatest, Math.floor((width - left - right) / entries.length)));
+  const minimum = minimumSlot(entries);
+  const slot = Math.max(minimum, Math.min(slots.maximum, Math.floor((width - left - right) / entries.length)));
   return (
-    <div class="population-plot" style={{ flexBasis: `${left + least * entries.length + right}px` }}>
+    <div class="population-plot" style={{ flexBasis: `${left + minimum * entries.length + right}px` }}>
       <h3>{labelOf(feature)}</h3>
       <div class="violins-scroll" ref={element} tabIndex={0} role="region" aria-label="Distributions by recording">
         {entries.length > 0 ? <Violins entries={entries} span={span} scale={scale} feature={feature} fit={fit} slot={slot} /> : <p class="soft">{noValues}</p>}
