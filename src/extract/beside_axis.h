@@ -1,5 +1,5 @@
 // What cells beside the axis of their channel tell: whether their elongation is stored in them or made by the flow, and
-// whether they still approach the axis (docs/theory-extract.md, sec. "Cells beside the axis").
+// whether they still approach the axis (docs/theory-extract.md, sec. "Cells off the axis").
 #pragma once
 #include <array>
 #include <cstddef>
